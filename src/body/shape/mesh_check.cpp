@@ -75,6 +75,7 @@ MeshCheck::MeshCheck(const TriangleMesh &triangle_mesh) :
   int number = 0;
   for (const MeshEdges::Edge &edge : all_edges.all()) {
     const int *const user = all_edges.users(edge), this_edge = number++;
+    for (int k = 1; k < edge.num_users; k++) at_edges.push_back({user[0], user[k]});
     if (edge.num_users != 2 || user[1] >= mesh.num_own()) continue;
     const bool opposed = mesh.corners(user[0]).runs_along(edge.vertex[0], edge.vertex[1]) ==
                          mesh.corners(user[1]).runs_along(edge.vertex[0], edge.vertex[1]);
@@ -183,19 +184,13 @@ std::string MeshCheck::turned_over(const Places &now) const
 
 bool MeshCheck::patches_change()
 {
-  const bool first = smooth.empty();
-  if (first) smooth.resize(2 * all_edges.all().size());
-  bool change = first;
-  std::size_t n = 0;
-  for (const MeshEdges::Edge &edge : all_edges.all()) {
-    const int *const user = all_edges.users(edge);
-    for (int k = 1; k < edge.num_users; k++, n++) {
-      if (n == smooth.size()) smooth.push_back(0);
-      const bool is_smooth =
-          std::fabs(dot(normals[user[0]], normals[user[k]])) >= TriangleMesh::smooth_cosine;
-      if ((smooth[n] != 0) != is_smooth) change = true;
-      smooth[n] = is_smooth;
-    }
+  bool change = smooth.empty();
+  smooth.resize(at_edges.size());
+  for (std::size_t n = 0; n < at_edges.size(); n++) {
+    const double cosine = dot(normals[at_edges[n][0]], normals[at_edges[n][1]]);
+    const char is_smooth = std::fabs(cosine) >= TriangleMesh::smooth_cosine ? 1 : 0;
+    change = change || smooth[n] != is_smooth;
+    smooth[n] = is_smooth;
   }
   return change;
 }
@@ -208,14 +203,10 @@ std::vector<int> MeshCheck::patches() const
     while (patch[t] != t) t = patch[t] = patch[patch[t]];
     return t;
   };
-  std::size_t n = 0;
-  for (const MeshEdges::Edge &edge : all_edges.all()) {
-    const int *const user = all_edges.users(edge);
-    for (int k = 1; k < edge.num_users; k++, n++) {
-      if (!smooth[n]) continue;
-      const int a = root(user[0]), b = root(user[k]);
-      patch[std::max(a, b)] = std::min(a, b);
-    }
+  for (std::size_t n = 0; n < at_edges.size(); n++) {
+    if (!smooth[n]) continue;
+    const int a = root(at_edges[n][0]), b = root(at_edges[n][1]);
+    patch[std::max(a, b)] = std::min(a, b);
   }
   for (int t = 0; t < mesh.size(); t++) patch[t] = root(t);
   return patch;
@@ -323,9 +314,10 @@ std::string MeshCheck::crossing()
 double MeshCheck::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
-  return bytes(normals) + bytes(neighbors) + bytes(boxes) + bytes(pairs) + bytes(listed_at) +
-         bytes(around) + bytes(around_begin) + (tree ? tree->memory_usage() : 0.0) +
-         bytes(all_edges.all()) + 24.0 * mesh.size();    // the rest of the edges
+  return bytes(normals) + bytes(neighbors) + bytes(at_edges) + bytes(boxes) + bytes(pairs) +
+         bytes(listed_at) + bytes(around) + bytes(around_begin) +
+         (tree ? tree->memory_usage() : 0.0) + bytes(all_edges.all()) +
+         24.0 * mesh.size();    // the rest of the edges
 }
 
 }    // namespace Talus

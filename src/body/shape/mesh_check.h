@@ -67,9 +67,10 @@ class MeshCheck {
 
   const TriangleMesh &mesh;
   const MeshEdges all_edges;
-  std::vector<Neighbors> neighbors;         // that are alone at their edge
-  std::vector<int> around_begin, around;    // own triangles of each vertex
-  std::vector<bool> smooth;    // edges between triangles of one patch, with a list of users
+  std::vector<Neighbors> neighbors;            // that are alone at their edge
+  std::vector<int> around_begin, around;       // own triangles of each vertex
+  std::vector<std::array<int, 2>> at_edges;    // pairs that share one, images included
+  std::vector<char> smooth;                    // the same: of one patch
   // of the last places
   const Places *to = nullptr;
   std::vector<Vector3<double>> normals;

@@ -83,6 +83,13 @@ NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
 
 bool MeshDetail::is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const
 {
+  if (moves) {    // most are on one side, which takes no unit normal
+    const Triangle now = mesh.triangle(t);
+    const Vector3<double> across =
+        cross(now.corner[1] - now.corner[0], now.corner[2] - now.corner[0]);
+    if ((dot(from - now.corner[0], across) >= 0.0) == (dot(to - now.corner[0], across) >= 0.0))
+      return false;
+  }
   Face room;
   const Face &face = this->face(t, room);
   const double before = dot(from, face.normal) - face.offset;

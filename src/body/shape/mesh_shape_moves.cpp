@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace Talus {
 
@@ -24,10 +25,9 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
                              const MovingVertices::Places *velocities, int steps, double dt,
                              double way)
 {
-  MovingVertices::Places now;
+  const MovingVertices::Places &now = mesh.all_vertices();
   double largest = 0.0;
   int farthest = 0;
-  for (int v = 0; v < mesh.num_vertices(); v++) now.push_back(mesh.vertex(v));
   for (int v = 0; v < mesh.num_own_vertices(); v++) {
     const double gone = length(places[v] - now[v]) / std::max(steps, 1);
     if (gone <= largest) continue;
@@ -42,9 +42,10 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
                   farthest, largest, way);
     return text;
   }
-  const std::string problem = check->problem(now, vertices->with_images(places));
+  MovingVertices::Places then = vertices->with_images(places);
+  const std::string problem = check->problem(now, then);
   if (!problem.empty()) return problem;
-  vertices->guide(places, velocities, steps, dt);
+  vertices->guide(std::move(then), velocities, steps, dt);
   if (check->patches_change()) mesh.set_patches(check->patches());
   if (steps == 0) find_planes();
   return "";

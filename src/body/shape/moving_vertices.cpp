@@ -55,10 +55,10 @@ MovingVertices::Places MovingVertices::with_images(const Places &own) const
                  [this](int v, const Vector3<double> &x) { return x + mesh.shift_of_vertex(v); });
 }
 
-void MovingVertices::guide(const Places &places, const Places *velocities, int number, double dt)
+void MovingVertices::guide(Places places, const Places *velocities, int number, double dt)
 {
   steps = left = number;
-  end = with_images(places);
+  end = std::move(places);
   follows_way = velocities == nullptr;
   if (velocities)
     velocity_at_end = for_all(*velocities, [](int, const Vector3<double> &v) { return v; });

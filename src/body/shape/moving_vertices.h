@@ -78,10 +78,10 @@ class MovingVertices {
   /// These places of the own ones, for all.
   Places with_images(const Places &own) const;
 
-  /// They are to be there after so many steps of this length (time), 0: at once. `velocities`: that
-  /// they are to have then, and keep until the next call; on the way velocities go there linearly from
-  /// what they are. Without: those of the way, and then none.
-  void guide(const Places &places, const Places *velocities, int steps, double dt);
+  /// All are to be there after so many steps of this length (time), 0: at once. `velocities`: that
+  /// the own ones are to have then, and keep until the next call; on the way velocities go there linearly
+  /// from what they are. Without: those of the way, and then none.
+  void guide(Places with_images, const Places *velocities, int steps, double dt);
   /// To the next step. Returns whether any may have moved. `order_2`: motion_half_way() will be asked for.
   bool advance(bool order_2);
   /// Contacts have seen the last step: without another one nothing has turned.

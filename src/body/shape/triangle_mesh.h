@@ -77,6 +77,7 @@ class TriangleMesh {
   const MeshReport &report() const { return findings; }
   const Corners &corners(int t) const { return triangles[t]; }
   const Vector3<double> &vertex(int v) const { return vertices[v]; }
+  const std::vector<Vector3<double>> &all_vertices() const { return vertices; }
   Triangle triangle(int t) const
   {
     const int *const v = triangles[t].vertex;
