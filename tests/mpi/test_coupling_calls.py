@@ -351,7 +351,7 @@ class Calls(CoupledCase):
         with self.assertRaises(AssertionError) as ended:    # the others cannot be told: all end
             self.drive(ON_ONE_RANK, -1, np=2)
         self.assertIn("talus_advance: Non-numeric atom coords", str(ended.exception))
-        self.assertIn("MPI_ABORT", str(ended.exception))
+        self.assertIn("return code", str(ended.exception))    # an end, no time out; how MPI words it is its matter
 
     def test_coming_and_going(self):
         for np, root in ((1, -1), (2, 1)):
