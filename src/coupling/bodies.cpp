@@ -11,6 +11,8 @@
 #include "system/large_body.h"
 #include "system/steered_body.h"
 
+#include "fix.h"
+
 #include <limits>
 
 namespace Talus {

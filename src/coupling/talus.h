@@ -97,8 +97,9 @@ int talus_get_mesh_size(talus_partner *partner, const char *body, int64_t *verti
                         int64_t *triangles);
 /* Places of the vertices now (3 each) and their numbers, from 0, of each triangle (3 each). Either may be NULL. */
 int talus_get_mesh(talus_partner *partner, const char *body, double *x, int64_t *triangles);
-/* All vertices are to be at these places, with these velocities (NULL: those of the way), after so many steps; on the way
-   they go along straight lines at constant speed. */
+/* All vertices are to be at these places after so many steps, 0: at once; on the way they go along straight lines at
+   constant speed, then they rest. v: velocities that contacts are to see then and until the next call of this; on the way
+   those go there linearly. NULL: those of the way, and then none. */
 int talus_put_vertices(talus_partner *partner, const char *body, const double *x, const double *v,
                        int64_t steps);
 /* Impulses (3 each) of the grains on vertices since the last call of this, only of vertices that were touched: how many,

@@ -121,6 +121,14 @@ bool LargeBodyVertices::from_array(const double *begin, const double *end)
   return true;
 }
 
+void LargeBodyVertices::exchange_state(StateExchange &x)
+{
+  std::vector<double> state(mesh.moving()->size_of_array());
+  if (!x.restores()) mesh.moving()->to_array(state.data());
+  x(state, forces, kicks, sums, time);
+  if (x.restores()) mesh.resume(state.data());
+}
+
 double LargeBodyVertices::memory_usage() const
 {
   return static_cast<double>(forces.capacity() * sizeof(TouchedCorners)) + sums.memory_usage();

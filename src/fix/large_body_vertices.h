@@ -42,12 +42,8 @@ class LargeBodyVertices : protected Pointers {
   /// `begin`, `end`: false if it is that of another mesh.
   void to_array(std::vector<double> &to);
   bool from_array(const double *begin, const double *end);
-  /// For snapshots.
-  void exchange_state(Talus::StateExchange &x)
-  {
-    mesh.exchange_state(x);
-    x(forces, sums, time);
-  }
+  /// For snapshots: the vertices, and the sums of this rank.
+  void exchange_state(Talus::StateExchange &x);
 
   double memory_usage() const;
 

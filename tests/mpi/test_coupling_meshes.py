@@ -83,10 +83,10 @@ class MovedMesh(CoupledCase):
                 text = text.replace(line + "\n", "", 1)
         return text
 
-    def move(self, name, np=1, **spec):
+    def move(self, name, np=1, env=None, **spec):
         """Rows of the exchanges."""
         self.write(name + ".spec", json.dumps(spec))
-        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np)
+        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np, env)
         return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):
@@ -148,6 +148,30 @@ class RigidWays(MovedMesh):
             self.compare(hills(), swing, 1e-11, law=law)
             self.compare(hills(), {**swing, "omega": 0.8}, 1e-11, law=law)
 
+    def test_periodic(self):
+        """Images behind the faces of the box follow; grains go through these, on 1 and 2 ranks."""
+        spheres = grains(low=1.1, side=4)
+        for n, s in enumerate(spheres):
+            s.x, s.v = (2.0 * s.x[0], 2.0 * s.x[1], s.x[2]), (0.5 if n % 2 else -0.3, 3.0, 0.0)
+        self.grains(spheres, ((-4, 4), (-4, 4), (-5, 8)))
+        words = {"swing": [0.0, 0.0, 0.1], "rate": 9.0}
+
+        def bumps(i, j):
+            return (-4 + 0.8 * i, -4 + 0.8 * j, 0.2 * math.cos(0.5 * math.pi * (i % 10) * 0.8) * math.sin(0.25 * math.pi * (j % 10) * 0.8))
+        triangles = body_meshes.grid(bumps, 10, 10)
+        found = [self.move(name, np, scene=self.scene(triangles, move, ROLLING, boundary="p p f"), way="rigid", words=words, every=1,
+                           steps=500, rigid=name == "rigid") for name, move, np in (("rigid", "external", 1), ("one", "vertices", 1),
+                                                                                      ("two", "vertices", 2))]
+        self.assertEqual(found[1], found[2])
+        self.assert_same_bits(self.end("one"), self.end("two"))
+        size = max(abs(row["load"][2]) for row in found[0])
+        worst = max(abs(a - b) for mine, theirs in zip(*found[:2]) for a, b in zip(mine["load"][:3], theirs["load"][:3])) / size
+        crossed = sum(abs(self.end("one").column("y")[n + 1] - s.x[1]) > 4.0 for n, s in enumerate(spheres))
+        print(f"periodic: loads up to {size:.0f} differ by {worst:.1e}, {crossed} grains went through a face")
+        self.assertGreater(size, 100.0)
+        self.assertGreater(crossed, 3)
+        self.assertLess(worst, 1e-10)
+
     def test_order_2(self):
         """Half way through a step places are the means of both ends: those of a turn differ from it in second order."""
         order_2 = {"law": SECOND, "integrator": "nve/sphere/symplectic order 2", "steps": 120}
@@ -167,8 +191,8 @@ class RigidWays(MovedMesh):
 
 class Ledgers(MovedMesh):
 
-    def moved(self, name, every, np=1, steps=200, root=-1, law=ROLLING, **options):
-        return self.move(name, np, scene=self.scene(hills(), law=law, **options), way="wave",
+    def moved(self, name, every, np=1, steps=200, root=-1, law=ROLLING, env=None, **options):
+        return self.move(name, np, env, scene=self.scene(hills(), law=law, **options), way="wave",
                           words={"height": 0.1, "number": 1.1, "rate": 6.0, "growth": 0.1}, every=every, steps=steps, root=root)
 
     def test_forces_on_vertices_are_the_load(self):
@@ -212,6 +236,8 @@ class Ledgers(MovedMesh):
         for np, root in ((2, -1), (4, 0), (2, 1)):
             self.assertEqual(self.moved(f"r{np}{root}", 7, np=np, root=root, steps=203), rows, f"{np} ranks, partner on {root}")
             self.assert_same_bits(self.end(f"r{np}{root}"), self.end("one"))
+        self.assertEqual(self.moved("threads", 7, steps=203, env={"OMP_NUM_THREADS": "3"}), rows, "threads")
+        self.assert_same_bits(self.end("threads"), self.end("one"))
 
     def test_restart(self):
         """Within a way, and on another number of ranks."""

@@ -65,7 +65,7 @@ REFUSED = [    # words of the fix, message, marked word
     ("custom nothing.so 0 " + LAW, "custom: cannot open 'nothing.so'", "nothing.so"),
     ("custom good.so -1 " + LAW, "custom: expected number of arguments (a whole number >= 0) instead of '-1'", "-1"),
     (f"{BOX} {LAW} move", "fix large/body move: missing style of motion", "move"),
-    (f"{BOX} {LAW} move about", "move: unknown style of motion 'about', expected none, linear, wiggle, rotate, variable, external or free", "about"),
+    (f"{BOX} {LAW} move about", "move: unknown style of motion 'about', expected none, linear, wiggle, rotate, variable, external, free or vertices", "about"),
     (f"{BOX} {LAW} move linear 1 2", "move linear: missing velocity (vx vy vz)", "2"),
     (f"{BOX} {LAW} move wiggle 1 2 3 0", "move wiggle: expected period (a number > 0) instead of '0'", "0"),
     (f"{BOX} {LAW} move rotate 0 0 0 0 0 0 1", "move rotate: axis (ax ay az) must not be zero", "0"),

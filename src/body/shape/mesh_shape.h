@@ -52,10 +52,11 @@ class MeshShape : public LargeBodyShape {
   {
     return inside == mesh.faces_outward() ? MeshSide::BACKS : MeshSide::NORMALS;
   }
-  /// Spheres may go from facet to facet of a hollow, see TriangleMesh::hollow_in_front().
+  /// Spheres may go from facet to facet of a hollow, see TriangleMesh::hollow_in_front(); or may once vertices
+  /// have moved.
   bool has_jumps() const
   {
-    return (acting != MeshSide::BACKS && mesh.hollow_in_front()) ||
+    return vertices || (acting != MeshSide::BACKS && mesh.hollow_in_front()) ||
            (acting != MeshSide::NORMALS && mesh.hollow_behind());
   }
   /// For messages: the file.
@@ -73,9 +74,8 @@ class MeshShape : public LargeBodyShape {
   /// people, why not.
   std::string guide(const MovingVertices::Places &places, const MovingVertices::Places *velocities,
                     int steps, double dt, double way);
-  /// From restart files, and for snapshots; see MovingVertices.
+  /// From restart files and snapshots; see MovingVertices.
   void resume(const double *array);
-  void exchange_state(StateExchange &x);
   /// Of one step; see MovingVertices.
   void advance(bool order_2);
   /// Before parts are listed, so that is_near() finds fast what is near now. `with_planes`: from now on triangles
@@ -132,7 +132,6 @@ class MeshShape : public LargeBodyShape {
 
   double farther(double reach) const { return vertices ? reach + vertices->way() : reach; }
   void find_planes();
-  void take_over_places();
 
   TriangleMesh mesh;
   std::unique_ptr<MovingVertices> vertices;    // if they move

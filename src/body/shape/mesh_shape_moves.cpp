@@ -53,17 +53,6 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
 void MeshShape::resume(const double *array)
 {
   vertices->from_array(array);
-  take_over_places();
-}
-
-void MeshShape::exchange_state(StateExchange &x)
-{
-  vertices->exchange_state(x);
-  if (x.restores()) take_over_places();
-}
-
-void MeshShape::take_over_places()
-{
   check->look_at(vertices->target());
   if (check->patches_change()) mesh.set_patches(check->patches());
   find_planes();

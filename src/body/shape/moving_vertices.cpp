@@ -330,21 +330,9 @@ void MovingVertices::from_array(const double *a)
   velocity_at_start = velocities();
   velocity_at_end = velocities();
   velocity_before = velocities();
-  find_moving();
-  follow_states();
-}
-
-void MovingVertices::exchange_state(StateExchange &x)
-{
-  x(steps, left, follows_way, has_jumped, states, start, end, velocity_at_start, velocity_at_end,
-    velocity_before, moving, rests);
-  if (x.restores()) follow_states();
-}
-
-void MovingVertices::follow_states()
-{
   for (int v = 0; v < num_all(); v++) mesh.place(v, states[v].place);
   set_bounds();
+  find_moving();
   find_way();
 }
 

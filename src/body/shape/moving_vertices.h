@@ -22,7 +22,6 @@
 #ifndef TALUS_BODY_SHAPE_MOVING_VERTICES_H
 #define TALUS_BODY_SHAPE_MOVING_VERTICES_H
 
-#include "base/state_exchange.h"
 #include "base/vector3.h"
 #include "body/shape/triangle_mesh.h"
 
@@ -116,15 +115,13 @@ class MovingVertices {
   static void share_out(const SurfacePoint &at, const Vector3<double> &force,
                         const Vector3<double> &torque, Vector3<double> *on_corners);
 
-  /// For restart files.
+  /// For restart files and snapshots.
   std::size_t size_of_array() const
   {
     return size_head + 3 * num_kept * static_cast<std::size_t>(num_own());
   }
   void to_array(double *a) const;
   void from_array(const double *a);
-  /// For snapshots.
-  void exchange_state(StateExchange &x);
 
   double memory_usage() const;
 
@@ -135,7 +132,6 @@ class MovingVertices {
   };
   Places now() const;
   void put(int vertex, const Vector3<double> &x);
-  void follow_states();
   void find_moving();
   void find_way();
   void set_bounds();
