@@ -429,7 +429,7 @@ class FixedPoint:
                 change = [now - then for now, then in zip(residual, before)]
                 square = self._product(change, change)
                 if square > 0.0:
-                    factor *= -self._product(before, change) / square
+                    factor = -factor * self._product(before, change) / square or self.relaxation
             values = [value + factor * part for value, part in zip(values, residual)]
             before = residual
         return result, False

@@ -110,11 +110,12 @@ int talus_get_vertex_loads(talus_partner *partner, const char *body, int64_t *to
 /* ---- save and restore ---------------------------------------------------------------------------- */
 
 /* Keeps the whole state in memory, with all bits: steps after talus_restore() repeat those after talus_save(). As many
-   snapshots as memory holds. */
+   snapshots as memory holds. Each rank keeps its part: all pass where it goes, wherever the partner lives. A set-up that is due
+   is made first. */
 int talus_save(talus_partner *partner, talus_snapshot **snapshot);
-/* Back to the state of the snapshot, which stays. */
+/* Back to the state of the snapshot, which stays. Fixes must be those of then. */
 int talus_restore(talus_partner *partner, const talus_snapshot *snapshot);
-/* Local. */
+/* Local; at any time, also when the instance is gone. */
 int talus_discard(talus_snapshot *snapshot);
 /* Local. Memory of this rank (bytes). */
 int64_t talus_snapshot_size(const talus_snapshot *snapshot);

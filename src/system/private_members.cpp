@@ -43,7 +43,9 @@
 #include <cstring>
 #include <vector>
 #if TALUS_HOST_HAS_GRANULAR
+#include "fix_pour.h"
 #include "gran_sub_mod_normal.h"
+#include "random_park.h"
 #endif
 
 using namespace LAMMPS_NS;
@@ -432,6 +434,29 @@ TALUS_PRIVATE_MEMBER(HookeStiffness, double GranSubModNormalHooke::*, &GranSubMo
 TALUS_PRIVATE_MEMBER(HertzStiffness, double GranSubModNormalHertz::*, &GranSubModNormalHertz::k)
 TALUS_PRIVATE_MEMBER(DmtStiffness, double GranSubModNormalDMT::*, &GranSubModNormalDMT::k)
 TALUS_PRIVATE_MEMBER(JkrModulus, double GranSubModNormalJKR::*, &GranSubModNormalJKR::Emix)
+TALUS_PRIVATE_MEMBER(FirstPouring, bigint FixPour::*, &FixPour::nfirst)
+TALUS_PRIVATE_MEMBER(NumPoured, int FixPour::*, &FixPour::ninserted)
+TALUS_PRIVATE_MEMBER(RandomOfPouring, RanPark *FixPour::*, &FixPour::random)
+
+PouringState pouring_of(Fix &fix)
+{
+  PouringState state;
+  if (!as<FixPour>(fix)) return state;
+  auto &pour = dynamic_cast<FixPour &>(fix);
+  state.first = pour.*pointer_to(FirstPouring{});
+  state.inserted = pour.*pointer_to(NumPoured{});
+  state.random = (pour.*pointer_to(RandomOfPouring{}))->state();
+  return state;
+}
+
+void set_pouring(Fix &fix, const PouringState &state)
+{
+  if (!as<FixPour>(fix)) return;
+  auto &pour = dynamic_cast<FixPour &>(fix);
+  pour.*pointer_to(FirstPouring{}) = state.first;
+  pour.*pointer_to(NumPoured{}) = state.inserted;
+  (pour.*pointer_to(RandomOfPouring{}))->reset(state.random);
+}
 
 double stiffness_of(const GranSubModNormalHooke &law)
 {
@@ -449,6 +474,13 @@ double modulus_of(const GranSubModNormalJKR &law)
 {
   return law.*pointer_to(JkrModulus{});
 }
+#else
+PouringState pouring_of(Fix & /*fix*/)
+{
+  return {};
+}
+
+void set_pouring(Fix & /*fix*/, const PouringState & /*state*/) {}
 #endif
 
 }    // namespace Talus

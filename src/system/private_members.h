@@ -62,6 +62,14 @@ LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);
 /// is reached again, and has read those before already.
 void let_average_again(LAMMPS_NS::Fix &fix, LAMMPS_NS::bigint step);
 
+/// What fix pour knows of the past and does not write into restart files; zero of other fixes.
+struct PouringState {
+  LAMMPS_NS::bigint first = 0;
+  int inserted = 0, random = 0;
+};
+PouringState pouring_of(LAMMPS_NS::Fix &fix);
+void set_pouring(LAMMPS_NS::Fix &fix, const PouringState &state);
+
 /// The bins by request; at least one if a list is made from bins.
 LAMMPS_NS::NBin **bins_of(LAMMPS_NS::Neighbor &neighbor);
 

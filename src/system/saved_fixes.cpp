@@ -59,6 +59,7 @@ void SavedFixes::save_globals()
     one.style = fix->style;
     one.next_rebuild = fix->next_reneighbor;
     std::copy_n(fix->virial, 6, one.virial.begin());
+    one.pouring = pouring_of(*fix);
     if (fix->restart_global && !is_own(fix)) one.in_restart_file = written_by(fix);
     fixes.push_back(std::move(one));
   }
@@ -158,6 +159,7 @@ void SavedFixes::restore_globals() const
                                 one.in_restart_file.end());
       fix->restart(written.data());
     }
+    set_pouring(*fix, one.pouring);
     SystemFix *const own = SystemFix::of(fix);
     if (own) own->state_is_restored();
     if (!own && !one.with_particles.empty() &&

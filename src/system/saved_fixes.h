@@ -9,6 +9,7 @@
 #define TALUS_SYSTEM_SAVED_FIXES_H
 
 #include "base/state_exchange.h"
+#include "system/private_members.h"
 
 #include "lmptype.h"
 #include "pointers.h"
@@ -50,6 +51,7 @@ class SavedFixes : protected LAMMPS_NS::Pointers {
     std::vector<char> in_restart_file;
     std::vector<double> with_particles;
     SavedState state;
+    PouringState pouring;
   };
   bool is_own(const LAMMPS_NS::Fix *fix) const;
   bool follows_particles(const LAMMPS_NS::Fix *fix) const;

@@ -118,6 +118,66 @@ def clumps(move, floor, law, words=(), vectors=()):
                  CLUMPS.format(move=move, floor=floor), words=words, write=clumps_of, vectors=vectors)
 
 
+CLUMP = """clump
+
+3 atoms
+
+Coords
+
+1 0 0 0
+2 0.8 0.1 0
+3 0.3 0.7 0.2
+
+Types
+
+1 1
+2 1
+3 1
+
+Diameters
+
+1 1.0
+2 0.9
+3 0.8
+
+Masses
+
+1 0.6
+2 0.4
+3 0.3
+"""
+POURED = """
+units lj
+boundary p p f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+fix prop all property/atom mol ghost yes
+region box block 0 9 0 9 0 14
+create_box 1 box
+molecule clump clump.mol
+pair_style gran/hertz/history 20000 NULL 50 NULL 0.5 1
+pair_coeff * *
+neighbor 0.2 bin
+neigh_modify every 1 delay 0 check yes exclude molecule/intra all
+timestep 0.0005
+fix move all rigid/small molecule mol clump
+fix fall all gravity 10 vector 0.2 0 -1
+fix floor all wall/gran hertz/history 20000 NULL 50 NULL 0.5 1 zplane 0 NULL
+region slab block 1 8 1 8 8 12
+fix drop all deposit 12 0 90 4711 region slab mol clump rigid move near 2.5 vz -6 -4
+thermo 100000
+thermo_style custom step atoms
+thermo_modify norm no lost error
+"""
+
+
+def clump_file(path):
+    with open(path.replace("grains", "clump.mol"), "w") as file:
+        file.write(CLUMP)
+
+
 SUFFIX = ("-sf", "talus")
 SCENES = {
     "spheres": Scene(head() + pair() + MOVE + walls(), write=tossed),
@@ -143,7 +203,15 @@ SCENES = {
                                  "fix fall all gravity 10 vector 0.2 0 -1",
                                  "fix floor all wall/gran hertz/history 20000 NULL 50 NULL 0.5 1 zplane 0 9",
                                  "pair_style gran/hertz/history 20000 NULL 50 NULL 0.5 1\npair_coeff * *\n", words=SUFFIX),
-    "shapes": Scene(head("p f f") + pair() + SHAPES, columns="f_shapes[1] f_shapes[2] f_shapes[3] f_shapes[4]",
+    "clumps that come": Scene(POURED, words=SUFFIX, write=clump_file),
+    "poured by the host": Scene(head("p p f", read="region box block 0 9 0 7 0 12\ncreate_box 1 box") +
+                                "pair_style gran/hooke/history 4000 NULL 20 NULL 0.5 0\npair_coeff * *\n"
+                                "fix step all nve/sphere\nfix g all gravity 10 vector 0 0 -1\nregion slab block 1 8 1 6 6 11\n"
+                                "fix in all pour 150 1 4767 region slab diam range 0.7 1.1 dens 1 1 vol 0.2 30\n"
+                                f"fix floor all wall/gran {HISTORY} zplane 0 NULL\n", words=SUFFIX, write=lambda path: None),
+    "shapes": Scene(head("p f f") + pair() + SHAPES + "region top block 1 8 1 6 5 6.3\n"
+                    "fix more all deposit 20 2 40 77 region top near 1.0 vz -2 -2\n",
+                    columns="f_shapes[1] f_shapes[2] f_shapes[3] f_shapes[4]",
                     write=lambda path: with_stirrer(path, types=3)),
     "poured": Scene(head("p p f").replace("neighbor", "group stream empty\nregion top block 1 8 1 6 5 6.3\nneighbor", 1) +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"

@@ -45,7 +45,7 @@ show("later")
 """
 SAVED = """
 snapshot = partner.save()
-assert snapshot.size > 1000
+assert snapshot.size > 100
 show("then")
 partner.advance(5)
 show("soon")
