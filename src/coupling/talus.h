@@ -59,7 +59,7 @@ int talus_close(talus_partner *partner);
    talus_open(), talus_load() and talus_close(). */
 const char *talus_error(const talus_partner *partner);
 /* Says on one rank, instead of any call that the others make, that the partner cannot go on. The calls of all ranks then
-   return TALUS_PARTNER_FAILED with this text; nobody waits for ever. */
+   return TALUS_PARTNER_FAILED with this text; no rank waits for ever. */
 int talus_fail(talus_partner *partner, const char *why);
 
 /* ---- time ---------------------------------------------------------------------------------------- */

@@ -22,7 +22,8 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-/* LAMMPS keeps lists of the fixes that act, which only a set-up makes anew. */
+/* LAMMPS keeps lists of the fixes that act, which only a set-up makes anew: after one that was not the
+   partner's they may name fixes that are gone. */
 
 std::uint64_t digest_of_definitions(LAMMPS &lmp, GranularSystem &system)
 {
@@ -36,6 +37,7 @@ std::uint64_t digest_of_definitions(LAMMPS &lmp, GranularSystem &system)
   add(system.laws().revision());
   for (const char *c = lmp.update->integrate_style; c && *c; c++) add(*c);
   add(lmp.atom->natoms);
+  add(system.external_loads().num_set_ups());
   return digest.value();
 }
 

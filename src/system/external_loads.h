@@ -93,6 +93,9 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// The fix is going.
   void drop_fix();
   void take_fix(LAMMPS_NS::Fix *one) { fix = one; }
+  void run_is_set_up() { set_ups++; }
+  /// Of runs, by whatever command, since the fix was first made.
+  std::uint64_t num_set_ups() const { return set_ups; }
 
  private:
   // of one particle, bits: ADDED: force, torque and drag are in the sums that are there between
@@ -141,6 +144,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix = nullptr;
+  std::uint64_t set_ups = 0;
   // by local index; empty: there are none
   std::vector<unsigned char> what;
   std::vector<Load> loads;

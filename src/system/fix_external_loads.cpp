@@ -33,6 +33,7 @@ int FixExternalLoads::setmask()
 
 void FixExternalLoads::init()
 {
+  loads().run_is_set_up();
   if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
     error->all(FLERR,
                "Forces, drag or heat that another program has put on particles do not act with "

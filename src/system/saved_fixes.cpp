@@ -42,9 +42,8 @@ std::string SavedFixes::reason_against() const
   for (const Fix *fix : fix_list(*modify)) {
     const std::string name = std::string("fix ") + fix->id + " (" + fix->style + ") ";
     if (fix->rigid_flag && !SystemFix::of(fix))
-      return name + "of LAMMPS keeps bodies where nobody can save them: use fix rigid/small with "
-                    "the suffix "
-                    "talus, or fix rigid/small/symplectic";
+      return name + "of LAMMPS keeps bodies in members that cannot be saved: use fix rigid/small with "
+                    "the suffix talus, or fix rigid/small/symplectic";
     if (std::strcmp(fix->style, "BOND_HISTORY") == 0)
       return name + "keeps histories of bonds, which are not saved: use a scene without bonds";
   }
