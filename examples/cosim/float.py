@@ -20,7 +20,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from fluid import Drawing
+from plots.drawing import Drawing
 from lammps import lammps
 from talus import FixedPoint, Partner, TalusError
 
@@ -219,7 +219,7 @@ def plot(path, options, curves, rows):
         for column, color, order in (2, "#b03a2e", 1), (3, "#1f5fa8", 2):
             drawing.dots([(row[1], row[column]) for row in rows if 10 ** -4.5 < row[column] < 10 ** -0.5], color)
             drawing.curve([(w, rows[-1][column] * (w / windows[-1]) ** order) for w in windows[-3:]])
-        file.write("</svg>\n")
+        drawing.close()
 
 
 def tell(options, cases, windows, curves, share):

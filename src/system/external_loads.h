@@ -29,6 +29,7 @@
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -164,7 +164,7 @@ with Partner(lmp, root) as partner:
     partner.advance(3)
     lmp.command("unfix floor")    # noticed
     partner.advance(3)
-    for command in ("fix gone all setforce NULL NULL 0.0", "run 0 post no", "unfix gone"):
+    for command in ("fix gone all viscous 0.0", "run 0 post no", "unfix gone"):
         lmp.command(command)    # LAMMPS' lists still name it
     partner.advance(3)
     lmp.command("fix ceiling all large/body plane 0 0 0.895 0 0 -1 contact hooke 1e3 0")
