@@ -22,14 +22,23 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-/* LAMMPS keeps lists of the fixes that act, which only a set-up makes anew: after one that was not the
-   partner's they may name fixes that are gone. */
+std::uint64_t digest_of_fixes(LAMMPS &lmp)
+{
+  StateDigest digest;
+  for (const Fix *fix : fix_list(*lmp.modify))
+    digest.add(static_cast<std::uint64_t>(number_of_instance(*fix)));
+  return digest.value();
+}
+
+/* Lists that a command between two advances has made may name fixes that are gone since. */
 
 std::uint64_t digest_of_definitions(LAMMPS &lmp, GranularSystem &system)
 {
   StateDigest digest;
   const auto add = [&digest](auto number) { digest.add(static_cast<std::uint64_t>(number)); };
-  for (const Fix *fix : fix_list(*lmp.modify)) add(number_of_instance(*fix));
+  const std::uint64_t fixes = digest_of_fixes(lmp);
+  add(fixes);
+  add(fixes == system.external_loads().fixes_of_lists());
   const std::vector<Compute *> computes = lmp.modify->get_compute_list();
   add(computes.size());
   for (const Compute *compute : computes) add(number_of_instance(*compute));
@@ -37,7 +46,6 @@ std::uint64_t digest_of_definitions(LAMMPS &lmp, GranularSystem &system)
   add(system.laws().revision());
   for (const char *c = lmp.update->integrate_style; c && *c; c++) add(*c);
   add(lmp.atom->natoms);
-  add(system.external_loads().num_set_ups());
   return digest.value();
 }
 

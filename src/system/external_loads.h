@@ -94,9 +94,9 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// The fix is going.
   void drop_fix();
   void take_fix(LAMMPS_NS::Fix *one) { fix = one; }
-  void run_is_set_up() { set_ups++; }
-  /// Of runs, by whatever command, since the fix was first made.
-  std::uint64_t num_set_ups() const { return set_ups; }
+  /// LAMMPS has made its lists of the fixes that act, for whatever command: digest_of_fixes() then.
+  void lists_are_of(std::uint64_t fixes) { listed_fixes = fixes; }
+  std::uint64_t fixes_of_lists() const { return listed_fixes; }
 
  private:
   // of one particle, bits: ADDED: force, torque and drag are in the sums that are there between
@@ -145,7 +145,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix = nullptr;
-  std::uint64_t set_ups = 0;
+  std::uint64_t listed_fixes = 0;
   // by local index; empty: there are none
   std::vector<unsigned char> what;
   std::vector<Load> loads;

@@ -2,6 +2,8 @@
 
 #include "system/fix_external_loads.h"
 
+#include "system/definitions.h"
+
 #include "atom.h"
 #include "error.h"
 #include "update.h"
@@ -33,7 +35,7 @@ int FixExternalLoads::setmask()
 
 void FixExternalLoads::init()
 {
-  loads().run_is_set_up();
+  loads().lists_are_of(Talus::digest_of_fixes(*lmp));
   if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
     error->all(FLERR,
                "Forces, drag or heat that another program has put on particles do not act with "
