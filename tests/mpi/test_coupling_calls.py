@@ -351,6 +351,8 @@ class Calls(CoupledCase):
 
     def test_errors_of_one_rank(self):
         self.check(self.said(ON_ONE_RANK, 1, -1), [(0, ""), (2, "talus_advance: Non-numeric atom coords")])
+        if os.environ.get("TALUS_SANITIZE"):    # they stop in MPI_Abort of Open MPI 4.1, which reads what it has freed
+            return
         with self.assertRaises(AssertionError) as ended:    # the others cannot be told: all end
             self.drive(ON_ONE_RANK, -1, np=2)
         self.assertIn("talus_advance: Non-numeric atom coords", str(ended.exception))
