@@ -3,6 +3,9 @@
 #include "shaped/shape_list.h"
 
 #include "shape/convex/convex_words.h"
+#include "shape/superellipsoid/superellipsoid_words.h"
+
+#include <utility>
 
 namespace Talus {
 namespace {
@@ -12,7 +15,12 @@ struct AllShapes {
   std::vector<ShapeWord> words = convex_words();
   Collisions collisions;
 
-  AllShapes() { add_convex_collisions(collisions); }
+  AllShapes()
+  {
+    for (ShapeWord &word : superellipsoid_words()) words.push_back(std::move(word));
+    add_convex_collisions(collisions);
+    add_superellipsoid_collisions(collisions);
+  }
 };
 
 AllShapes &list()

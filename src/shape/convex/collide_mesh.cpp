@@ -17,25 +17,6 @@ using MeshCorner = MeshFeatures::Corner;
 
 }    // namespace
 
-bool MeshContacts::look_around()
-{
-  with.parts.clear();
-  with.near.clear();
-  if (!surface.is_near(pose.position, bound, with.parts)) return false;
-  const TriangleMesh &mesh = surface.surface();
-  const MeshSide acting = surface.side();
-  for (const NearPart &part : with.parts) {
-    const int t = detail.number(part.part);
-    const Vector n = detail.normal(part.part);
-    const double offset = dot(mesh.vertex(mesh.corners(mesh.plane_of(t)).vertex[0]), n);
-    const bool in_front = dot(n, pose.position) >= offset;
-    if (acting == (in_front ? MeshSide::BACKS : MeshSide::NORMALS)) continue;
-    const double side = in_front ? 1.0 : -1.0;
-    with.near.push_back({t, part.part, side, side * n, side * offset});
-  }
-  return !with.near.empty();
-}
-
 double MeshContacts::height_over(int triangle, const Vector &x) const
 {
   const TriangleMesh &mesh = surface.surface();
@@ -53,7 +34,7 @@ const NearTriangle *MeshContacts::near_of(int triangle) const
 
 bool MeshContacts::find()
 {
-  if (!look_around()) return false;
+  if (!find_near_triangles(surface, pose.position, bound, with.parts, with.near)) return false;
   add_vertices();
   with.ridges.clear();
   with.of_ridge.clear();

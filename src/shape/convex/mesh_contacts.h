@@ -8,20 +8,12 @@
 #include "shape/convex/collide_mesh.h"
 #include "shape/convex/nearest_lines.h"
 #include "shape/convex/shared_energy.h"
+#include "shape/near_triangles.h"
 
 #include <utility>
 #include <vector>
 
 namespace Talus {
-
-/// A triangle near the particle that faces its center.
-struct NearTriangle {
-  int triangle, part;        ///< of the mesh; of its detail
-  double side;               ///< 1: the center is where its normal points to; -1: on the other side
-  Vector3<double> normal;    ///< toward the center
-  double offset;             ///< of its plane
-  double height(const Vector3<double> &x) const { return dot(normal, x) - offset; }
-};
 
 /// An edge of the particle.
 struct ParticleEdge {
@@ -49,7 +41,6 @@ class MeshContacts {
   bool find();
 
  private:
-  bool look_around();
   void add_vertices();
   void add_in_front(int v, const Vector &x);
   void add_behind(int v, const Vector &x);
