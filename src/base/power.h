@@ -58,6 +58,36 @@ inline double power(double x, double e)
   return y < -690.0 ? 0.0 : exponential(y);
 }
 
+/// x^e for one exponent > 0 and many x >= 0, see power(): by products and square roots where that is possible.
+class Power {
+ public:
+  explicit Power(double e = 1.0) : exponent(e)
+  {
+    constexpr int most = 32;
+    for (int root = 0; root < 3; root++)
+      for (int n = 1; n <= most && !factors; n++)
+        if (e * (1 << root) == n) {
+          factors = n;
+          roots = root;
+        }
+  }
+  double operator()(double x) const
+  {
+    if (!factors) return power(x, exponent);
+    for (int k = 0; k < roots; k++) x = std::sqrt(x);
+    double product = factors & 1 ? x : 1.0;
+    for (int n = factors >> 1; n; n >>= 1) {
+      x = x * x;
+      if (n & 1) product = product * x;
+    }
+    return product;
+  }
+
+ private:
+  double exponent;
+  int factors = 0, roots = 0;    ///< (2^roots-th root of x)^factors; no factors: not so
+};
+
 }    // namespace Talus
 
 #endif

@@ -167,7 +167,7 @@ variable e equal {"f_s" if shape else "f_s+0.5*mass[2]*(vx[2]^2+vy[2]^2+vz[2]^2)
                 ("fix s all shape/gran type 1 capsule 1 0.3", "no density is given")):
             with self.subTest(expected):
                 self.assertIn(expected, error(commands))
-        self.assertIn("unknown shape 'capsule', expected box, polyhedron or vertices", error(capsule, env={}))
+        self.assertIn("unknown shape 'capsule', expected box, polyhedron, vertices, ellipsoid or superellipsoid", error(capsule, env={}))
 
     def scene(self, name, np=1, commands="run 3000", read="read_data ../grains", env=None):
         where = self.path(name)

@@ -68,6 +68,11 @@ class ShapeErrors(SceneCase):
                 ("type 2 box 1 1 1 density 1 type 2 box 1 1 1 density 1", "has a shape already"),
                 ("type 2 polyhedron nothing.stl density 1", "cannot read the file 'nothing.stl'"),
                 ("type 2 polyhedron open.stl density 1", "'open.stl': "),
+                ("type 2 ellipsoid 1 0 1 density 1", "ellipsoid b"),
+                ("type 2 ellipsoid 1 1 1 rounded 0.1 density 1", "unknown keyword 'rounded'"),
+                ("type 2 superellipsoid 1 1 1 1.5 2 density 1", "the exponent n1 is 1.5 and must be between 2 (round) and 20"),
+                ("type 2 superellipsoid 1 1 1 4 density 1", "superellipsoid n2"),
+                ("type 2 superellipsoid 1 1 1 4 2 density 1 curvature flat", "unknown curvature 'flat', expected mean, gaussian or volume"),
                 ("type 2 vertices 4 0 0 0 1 0 0 0 1 0 1 1 0 density 1", "in one plane"),
                 ("type 2 vertices 5 0 0 0 1 0 0 0 1 0 0 0 1 .1 .1 .1 density 1", "vertex 5"))):
             with self.subTest(words):

@@ -149,7 +149,7 @@ template <class Other> class Search {
     Vector along;    // on the surface of the leader
     bool other_leads;
   };
-  Way newton(const State &x, Goal goal) const;
+  Way newton(const State &x, Goal goal, bool curved_leads) const;
   State moved(const State &x, const Way &way, double part) const
   {
     const Vector along = part * way.along;
@@ -170,7 +170,7 @@ template <class Other> class Search {
      dp_a + dp_b - f dn = -g,   dn = K_a dp_a,   turn dn = move dp_b. */
 
 template <class Other>
-typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal) const
+typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal, bool curved_leads) const
 {
   const Vector &n = x.normal;
   Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
@@ -197,7 +197,7 @@ typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal) con
   Way way{w.s * s + w.t * t, false};
   if constexpr (Other::leads) {
     const FlatMatrix of_b = b.curvature(x.of_b, s, t);
-    if (of_b.trace() < of_a.trace()) {
+    if ((of_b.trace() < of_a.trace()) != curved_leads) {
       const Flat u{-g.s - w.s + f * dn.s, -g.t - w.t + f * dn.t};
       const Flat turned = of_b * u;
       if (turned.s * g.s + turned.t * g.t < 0.0) way = {u.s * s + u.t * t, true};
@@ -207,21 +207,25 @@ typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal) con
 }
 
 /* Far away a step is halved until it gains something. Near by, where gains vanish in rounding, steps are taken as
-   they are, as long as they shrink. */
+   they are, as long as they shrink. Where they hardly do, each surface may be the flatter one in some direction: they
+   lead in turn. */
 
 template <class Other>
 typename Search<Other>::State Search<Other>::descend(State x, Goal goal, bool stops) const
 {
   constexpr int most_steps = 60, most_halvings = 30;
   constexpr double near_by = 1.0e-4, noise = 1.0e-10, enough = 1.0e-13;
-  double before = near_by * size;
+  double near = near_by * size, before = 1.0e9 * size;
+  bool curved_leads = false;
   for (int step = 0; step < most_steps; step++) {
     if (stops && x.overlap < 0.0) break;
-    const Way way = newton(x, goal);
+    const Way way = newton(x, goal, curved_leads);
     const double far = length(way.along);
     if (far <= enough * size) break;
-    if (far < 0.5 * before) {
-      before = far;
+    if (far > 0.5 * before) curved_leads = !curved_leads;
+    before = far;
+    if (far < 0.5 * near) {
+      near = far;
       x = moved(x, way, 1.0);
       continue;
     }

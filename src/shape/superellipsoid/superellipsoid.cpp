@@ -14,11 +14,6 @@ namespace {
 
 using Vector = Vector3<double>;
 
-double root_power(double x, double e)
-{
-  return e == 0.5 ? std::sqrt(x) : power(x, e);
-}
-
 /// The largest distance from the origin of |x/a|^n + |y/b|^n = 1: by Lagrange x^(n-2) ~ a^n.
 double farthest(double a, double b, double n)
 {
@@ -54,7 +49,8 @@ void check_exponent(double n, const std::string &name)
 Superellipsoid::Superellipsoid(const Vector &half_axes, double n1, double n2,
                                SurfaceRadius surface_radius) :
     half(half_axes),
-    exponent1(n1), exponent2(n2), radius_kind(surface_radius)
+    exponent1(n1), exponent2(n2), powers1(n1), powers2(n2), ratio(n1 / n2),
+    radius_kind(surface_radius)
 {
   for (const double axis : {half.x, half.y, half.z})
     if (!(axis > 0.0 && std::isfinite(axis)))
@@ -91,9 +87,8 @@ double Superellipsoid::gauge(const Vector &x) const
   if (!(most > 0.0)) return 0.0;
   if (exponent1 == 2.0 && exponent2 == 2.0) return std::sqrt(u * u + v * v + w * w);
   // in units of the largest, so that no power underflows
-  const double s = power(u / most, exponent2) + power(v / most, exponent2);
-  return most * root_power(power(s, exponent1 / exponent2) + power(w / most, exponent1),
-                           1.0 / exponent1);
+  const double s = powers2.whole(u / most) + powers2.whole(v / most);
+  return most * powers1.root(ratio(s) + powers1.whole(w / most));
 }
 
 /* The dual norm: with q = n/(n - 1), r = (|a m_x|^q2 + |b m_y|^q2)^(1/q2) and h = (r^q1 + |c m_z|^q1)^(1/q1) is the
@@ -103,33 +98,18 @@ Superellipsoid::UnitPoint Superellipsoid::unit_point_at(const Vector &m, double 
 {
   const double u = half.x * std::abs(m.x), v = half.y * std::abs(m.y), w = half.z * std::abs(m.z);
   UnitPoint p{};
-  double r, alpha = 1.0, beta = 0.0;    // x/rho, y/rho
-  if (exponent2 == 2.0) {
-    r = std::sqrt(u * u + v * v);
-    if (r > 0.0) {
-      alpha = u / r;
-      beta = v / r;
-    }
-  } else {
-    const double e = 1.0 / (exponent2 - 1.0), pu = power(u, e), pv = power(v, e);
-    const double s = u * pu + v * pv, root = power(s, 1.0 / exponent2);
-    r = root > 0.0 ? s / root : 0.0;
-    if (root > 0.0) {
-      alpha = pu / root;
-      beta = pv / root;
-    }
-  }
-  if (exponent1 == 2.0) {
-    height = std::sqrt(r * r + w * w);
-    p.rho = r / height;
-    p.z = w / height;
-  } else {
-    const double e = 1.0 / (exponent1 - 1.0), pr = power(r, e), pw = power(w, e);
-    const double s = r * pr + w * pw, root = power(s, 1.0 / exponent1);
-    height = s / root;
-    p.rho = pr / root;
-    p.z = pw / root;
-  }
+  const double pu = powers2.root_of_less(u), pv = powers2.root_of_less(v);
+  const double flat = u * pu + v * pv, flat_root = powers2.root(flat);
+  const double r = flat_root > 0.0 ? flat / flat_root : 0.0;
+  const double alpha = flat_root > 0.0 ? pu / flat_root : 1.0,    // x/rho, y/rho
+      beta = flat_root > 0.0 ? pv / flat_root : 0.0;
+  // r^(q2-1) is the root already
+  const double pr = exponent1 == exponent2 ? flat_root : powers1.root_of_less(r),
+               pw = powers1.root_of_less(w);
+  const double all = r * pr + w * pw, root = powers1.root(all);
+  height = all / root;
+  p.rho = pr / root;
+  p.z = pw / root;
   p.x = p.rho * alpha;
   p.y = p.rho * beta;
   p.x_power = r > 0.0 ? u / r : 1.0;
@@ -191,26 +171,18 @@ Superellipsoid::Point Superellipsoid::on_ray(const Vector &x) const
   p.x = scale * std::abs(x.x) / half.x;
   p.y = scale * std::abs(x.y) / half.y;
   p.z = scale * std::abs(x.z) / half.z;
-  p.x_power = 1.0;
-  if (exponent2 == 2.0) {
-    p.rho = std::sqrt(p.x * p.x + p.y * p.y);
-    if (p.rho > 0.0) {
-      p.x_power = p.x / p.rho;
-      p.y_power = p.y / p.rho;
-    }
-  } else {
-    const double larger = std::max(p.x, p.y);
-    if (larger > 0.0) {
-      const double s = p.x / larger, t = p.y / larger;
-      const double ps = power(s, exponent2 - 1.0), pt = power(t, exponent2 - 1.0);
-      const double sum = s * ps + t * pt, root = power(sum, 1.0 / exponent2);
-      p.rho = larger * root;
-      p.x_power = ps * root / sum;    // over root^(n2-1) = sum/root
-      p.y_power = pt * root / sum;
-    }
+  p.x_power = 1.0;    // at the pole
+  const double larger = std::max(p.x, p.y);
+  if (larger > 0.0) {    // in units of it, so that no power underflows
+    const double s = p.x / larger, t = p.y / larger;
+    const double ps = powers2.less(s), pt = powers2.less(t);
+    const double sum = s * ps + t * pt, root = powers2.root(sum);
+    p.rho = larger * root;
+    p.x_power = ps * root / sum;    // over root^(n2-1) = sum/root
+    p.y_power = pt * root / sum;
   }
-  p.rho_power = power(p.rho, exponent1 - 1.0);
-  p.z_power = power(p.z, exponent1 - 1.0);
+  p.rho_power = powers1.less(p.rho);
+  p.z_power = powers1.less(p.z);
   return point(p, x);
 }
 

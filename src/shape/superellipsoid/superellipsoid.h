@@ -15,6 +15,7 @@
 #ifndef TALUS_SHAPE_SUPERELLIPSOID_SUPERELLIPSOID_H
 #define TALUS_SHAPE_SUPERELLIPSOID_SUPERELLIPSOID_H
 
+#include "base/power.h"
 #include "shape/shape.h"
 
 #include <vector>
@@ -87,6 +88,12 @@ class Superellipsoid final : public Shape {
 
   Vector3<double> half;
   double exponent1, exponent2;
+  struct Powers {    // of n: n, n - 1, and their inverse values
+    Power whole, less, root, root_of_less;
+    explicit Powers(double n) : whole(n), less(n - 1.0), root(1.0 / n), root_of_less(1.0 / (n - 1.0)) {}
+  };
+  Powers powers1, powers2;
+  Power ratio;    // n1/n2
   SurfaceRadius radius_kind;
   double outer, inner, volume_, least_radius, least_curvature;
   Eigen::Vector3d moments;
