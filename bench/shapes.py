@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""What convex particles and clumps cost, and how dense convex ones pack."""
+"""What convex particles, superellipsoids and clumps cost, and how dense convex ones pack."""
 
 import re
 import shutil
@@ -10,7 +10,7 @@ import lammps
 import machine
 import paired
 import shape_beds
-from lammps import BODY, STOCK, TALUS
+from lammps import ASPHERE, BODY, STOCK, TALUS
 
 TITLE = "Particles that are not spheres"
 QUESTION = """What do a convex particle and a clump cost per step, beside a sphere and beside what LAMMPS has for them? Settled beds,
@@ -21,11 +21,13 @@ KINDS = ("spheres", "cubes", "dodecahedra", "mixed")
 COMPARED = ("cubes", "dodecahedra")     # with pair body/rounded/polyhedron
 FLOOR = 10.0
 SIZES = (8, 12), (5, 6)     # bodies along the sides, layers
-# J. Baker, A. Kudrolli, Phys. Rev. E 82, 061304 (2010): loosest and densest packings of plastic dice (with friction)
-MEASURED = {"cubes": (0.54, 0.67), "dodecahedra": (0.51, 0.63), "tetrahedra": (0.51, 0.64)}
+# J. Baker, A. Kudrolli, Phys. Rev. E 82, 061304 (2010): loosest and densest packings of plastic dice (with friction);
+# A. Donev et al., Science 303, 990 (2004): M&M candies, 1 : 1 : .5 about; spheres without friction: random close packing
+MEASURED = {"cubes": (0.54, 0.67), "dodecahedra": (0.51, 0.63), "tetrahedra": (0.51, 0.64),
+            "lentils": (0.68, 0.71), "spheres": (0.60, 0.64)}
 
 NARROW = re.compile(r"collide|find_gap|find_least_depth|nearest_point|highest_vertex|_contacts|edges_touch|weights_of_edges|"
-                    r"Simplex|Candidates|least_of_faces|edges_above|to_space|ShapedPairs::find_points|Talus::touch")
+                    r"find_common_normal|Superellipsoid|Simplex|Candidates|least_of_faces|edges_above|to_space|ShapedPairs::find_points|Talus::touch")
 
 
 def run(bench, name, script, code=TALUS, **options):
@@ -124,6 +126,45 @@ the difference in bodies. Narrow phase: share of samples (perf) of a whole run."
                                    f"of LAMMPS {row[-1]} times as long.")
 
 
+# ---- superellipsoids --------------------------------------------------------------------------
+
+ROUND_LIMITS = {"ellipsoids": 4.0, "superellipsoids": 10.0}      # over a sphere
+ROUND_FLOOR = 10.0
+
+
+def superellipsoids(bench):
+    if not bench.wants("superellipsoids"):
+        return
+    across, layers = bench.size(*SIZES)
+    steps = bench.size(1000, 200)
+    spheres = timed(bench, "spheres", shape_beds.settled(bench, "spheres", across, layers), steps)
+    rows = []
+    for kind, limit in ROUND_LIMITS.items():
+        bed = shape_beds.settled(bench, kind, across, layers)
+        pairs, _, energy, _ = state(bench, kind, bed)
+        bench.note(f"{kind}: {pairs:.2f} pairs per body, kinetic energy {energy:.1e}")
+        variants = {"spheres": spheres, TALUS: timed(bench, kind, bed, steps)}
+        if machine.ASPHERE_LMP:
+            stock = shape_beds.superellipsoid_script(bench, kind, bed, 5, bench.size(100, 30))
+            variants[ASPHERE] = lambda s=stock: run(bench, "asphere", s, ASPHERE).loops()[-1].nanoseconds()
+        series = paired.measure(variants, bench.rounds)
+        for name, values in series.items():
+            for k, value in enumerate(values.values):
+                bench.section.record(case=kind, code=name, round=k + 1, ns_per_body=value)
+        share = narrow_share(bench, shape_beds.talus_script(bench, kind, bed, 0, steps))
+        over = paired.ratio(series[TALUS], series["spheres"])
+        faster = paired.ratio(series[ASPHERE], series[TALUS]) if ASPHERE in series else None
+        rows.append([kind, pairs, series[TALUS].median, f"{100 * share:.0f} %", str(over), f"{limit:.0f}",
+                     series[ASPHERE].median if faster else "-", str(faster) if faster else "-"])
+        bench.section.headline(f"shapes: a step of settled {kind} takes {series[TALUS].median / 1000:.2f} us per body, {over} times that of a sphere"
+                               + (f"; with pair granular/superellipsoid of LAMMPS {faster} times as long" if faster else "") + ".")
+    bench.section.heading("Superellipsoids")
+    bench.section.table(["bed", "pairs that touch per body", "ns per body and step", "narrow phase", "over a sphere", "goal: at most",
+                         "pair granular/superellipsoid, ns", "over it"], rows)
+    bench.section.text(f"""Half axes .75 .64 .5, and .6 .55 .5 with both exponents 4; linear springs with damping and friction. LAMMPS of 2026 (package ASPHERE)
+starts from the same state with the same springs, its lowest bodies at rest in the place of the floor. Goal of that ratio: {ROUND_FLOOR:.0f}.""")
+
+
 # ---- clumps -----------------------------------------------------------------------------------
 
 CLUMPS = (      # what, a bed of clumps, code, mover, arguments
@@ -188,14 +229,15 @@ def packings(bench):
             rows.append([kind, name, fraction, loose, dense])
             bench.section.record(case=f"packing, {kind}, {name}", fraction=fraction)
     bench.section.heading("Packing")
-    bench.section.table(["poured", "", "volume fraction", "plastic dice, loosest", "densest"], rows)
+    bench.section.table(["poured", "", "volume fraction", "measured, loosest", "densest"], rows)
     bench.section.text("""Bodies with random orientations fall on each other, in the middle of the bed. Measured loosest and densest packings: J. Baker, A. Kudrolli, Phys. Rev. E 82, 061304
-(2010), dice with friction, fluidized or vibrated.""")
+(2010), dice with friction, fluidized or vibrated; of M&M candies, 1 : 1 : .5 about: A. Donev et al., Science 303, 990 (2004); spheres: random loose and close packing.""")
 
 
 def measure(bench):
     if not machine.BODY_LMP:
         bench.section.text("Left out: pair body/rounded/polyhedron, for there is no LAMMPS with package BODY.")
     clumps(bench)
+    superellipsoids(bench)
     convex(bench)
     packings(bench)

@@ -16,6 +16,7 @@ import machine
 
 TALUS, STOCK, LIGGGHTS = "talus", "stock", "liggghts"
 BODY = "body"          # LAMMPS with package BODY
+ASPHERE = "asphere"    # LAMMPS of 2026 with package ASPHERE
 SECOND = "order2"      # Talus with order 2 of its integrator
 TIMEOUT = 1800.0
 START_LIMIT, STARTS = 30.0, 3      # seconds until LAMMPS must have opened its log; attempts
@@ -78,7 +79,7 @@ def measured_peak(result):
 
 def _program(code):
     return {TALUS: machine.TALUS_LMP, SECOND: machine.TALUS_LMP, STOCK: machine.STOCK_LMP, LIGGGHTS: machine.LIGGGHTS,
-            BODY: machine.BODY_LMP}[code]
+            BODY: machine.BODY_LMP, ASPHERE: machine.ASPHERE_LMP}[code]
 
 
 def _command(code, name, cores, ranks, threads, arguments):

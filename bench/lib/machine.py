@@ -20,6 +20,7 @@ BUILD = _required("TALUS_BUILD")
 TALUS_LMP = os.path.join(BUILD, "lmp")    # the host with the plugin loaded
 STOCK_LMP = _required("TALUS_BENCH_HOST")                    # the same host without it
 BODY_LMP = os.environ.get("TALUS_BENCH_BODY_HOST", "")       # a host with package BODY, or none
+ASPHERE_LMP = os.environ.get("TALUS_BENCH_ASPHERE_HOST", "")    # a newer one with package ASPHERE, or none
 HOST_SOURCE = os.environ.get("TALUS_BENCH_SOURCE", "")
 CACHE = _required("TALUS_BENCH_CACHE")
 LIGGGHTS = shutil.which("liggghts")

@@ -47,6 +47,16 @@ class Body:
         return list(found.values())
 
 
+class Round:
+    """A superellipsoid with the volume of the cube, or about that."""
+
+    def __init__(self, half, n1=2.0, n2=2.0):
+        self.half, self.n1, self.n2 = half, n1, n2
+
+    def words(self):
+        return f"superellipsoid {' '.join(map(repr, self.half))} {self.n1} {self.n2} density 1"
+
+
 def less(a, b):
     return tuple(p - q for p, q in zip(a, b))
 
@@ -89,7 +99,9 @@ def tetrahedron():
 
 
 BODIES = {"cubes": [cube()], "dodecahedra": [dodecahedron()], "tetrahedra": [tetrahedron()],
-          "mixed": [cube(), dodecahedron(), None], "spheres": [None]}
+          "mixed": [cube(), dodecahedron(), None], "spheres": [None],
+          "ellipsoids": [Round((0.75, 0.64, 0.5))], "superellipsoids": [Round((0.6, 0.55, 0.5), 4.0, 4.0)],
+          "lentils": [Round((0.78, 0.78, 0.39))]}
 SPHERE = 1.24       # diameter: the volume of the cube
 SPACING = 1.75
 
@@ -223,3 +235,25 @@ def stock_script(bench, kind, bed, warm, steps, mass, moment):
             f"pair_style body/rounded/polyhedron {damping} {damping} {MU} 1.0 0.0\npair_coeff * * {K} 0.0\n"
             f"fix move all nve/body\nfix g all gravity {GRAVITY} vector 0 0 -1\n"
             f"fix floor all wall/body/polyhedron {K} {damping} {damping} zplane 0.0 NULL\n" + tail(warm, steps))
+
+
+# ---- superellipsoids with the style of LAMMPS --------------------------------------------------
+
+def superellipsoid_script(bench, kind, bed, warm, steps):
+    """pair granular/superellipsoid, for which there is no floor: the lowest bodies stay where they are."""
+    body, = BODIES[kind]
+    (x, y, z), rows = bed
+    lines = [f"superellipsoids\n\n{len(rows)} atoms\n{len(rows)} ellipsoids\n1 atom types\n"]
+    lines += [f"{low!r} {high!r} {axis}lo {axis}hi" for axis, (low, high) in zip("xyz", (x, y, z))]
+    lines.append("\nAtoms\n")
+    lines += [f"{k} 1 1 1.0 " + " ".join(repr(c) for c in row[2:5]) for k, row in enumerate(rows, 1)]
+    lines.append("\nEllipsoids\n")
+    lines += [f"{k} " + " ".join(repr(v) for v in (*(2 * h for h in body.half), *row[5:], body.n1, body.n2))
+              for k, row in enumerate(rows, 1)]
+    with open(bench.path(f"{kind}.asphere"), "w") as file:
+        file.write("\n".join(lines) + "\n")
+    return (head("ellipsoid superellipsoid", "off") + f"read_data {kind}.asphere\n"
+            "pair_style granular/superellipsoid\n"
+            f"pair_coeff * * hooke {K} {GN} tangential linear_history {K * 2 / 7} 1.0 {MU} damping mass_velocity\n"
+            f"region low block INF INF INF INF INF {max(body.half)}\ngroup low region low\ngroup rest subtract all low\n"
+            f"fix move rest nve/asphere\nfix g rest gravity {GRAVITY} vector 0 0 -1\n" + tail(warm, steps))

@@ -28,8 +28,10 @@ inline double logarithm(double x)
   double m;
   std::memcpy(&m, &bits, sizeof m);
   const double s = (m - 1.0) / (m + 1.0), s2 = s * s, s4 = s2 * s2;
-  const double odd = 1.0 / 3.0 + s4 * (1.0 / 7.0 + s4 * (1.0 / 11.0 + s4 * (1.0 / 15.0 + s4 * (1.0 / 19.0)))),
-               even = 1.0 / 5.0 + s4 * (1.0 / 9.0 + s4 * (1.0 / 13.0 + s4 * (1.0 / 17.0 + s4 * (1.0 / 21.0))));
+  const double odd = 1.0 / 3.0 +
+                     s4 * (1.0 / 7.0 + s4 * (1.0 / 11.0 + s4 * (1.0 / 15.0 + s4 * (1.0 / 19.0)))),
+               even = 1.0 / 5.0 +
+                      s4 * (1.0 / 9.0 + s4 * (1.0 / 13.0 + s4 * (1.0 / 17.0 + s4 * (1.0 / 21.0))));
   return static_cast<double>(n) * 0.69314718055994530942 + 2.0 * (s + s * (s2 * odd + s4 * even));
 }
 

@@ -41,7 +41,8 @@ std::string how(const std::string &reason_for_stock)
 template <typename Styles> std::string why_stock(const Styles &styles, const std::string &name)
 {
   if (name == "granular/superellipsoid")
-    return "its overlaps and normals are defined in another way than those of fix shape/gran, which has such shapes";
+    return "its overlaps and normals are defined in another way than those of fix shape/gran, "
+           "which has such shapes";
   if (styles.find(name + "/talus") == styles.end()) return "no accelerated variant";
   return "start with -sf talus (or write suffix talus)";
 }

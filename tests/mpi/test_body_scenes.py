@@ -84,6 +84,15 @@ class Scenes(SceneCase):
         self.assertEqual(mass, sorted(mass))
         self.assertEqual(mass[0], 0.0)
 
+    def test_lentils(self):
+        found = self.simulate("lentils", np=2, radius=5, settle=0.2, time=0.12)
+        self.assertAlmostEqual(found["weight on hoppers and gate / weight"], 1.0, delta=0.3)
+        self.assertGreater(found["mass of lentils discharged / mass"], 0.05)
+        self.assertGreater(found["mass of spheres discharged / mass"], 0.05)
+        for column in 1, 2:
+            mass = [row[column] for row in self.table("discharge.txt")]
+            self.assertEqual(mass, sorted(mass))
+
     def test_wheel(self):
         rows = []
         for np in (1, 2):

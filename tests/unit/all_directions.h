@@ -22,7 +22,8 @@ template <class Function> double least_of_all_directions(Function f)
   constexpr int count = 3000, starts = 6;
   std::vector<std::pair<double, Vector>> best;
   for (int k = 0; k < count; k++) {
-    const double z = 1.0 - (2.0 * k + 1.0) / count, r = std::sqrt(1.0 - z * z), angle = 2.39996323 * k;
+    const double z = 1.0 - (2.0 * k + 1.0) / count, r = std::sqrt(1.0 - z * z),
+                 angle = 2.39996323 * k;
     const Vector n{r * std::cos(angle), r * std::sin(angle), z};
     best.emplace_back(f(n), n);
   }

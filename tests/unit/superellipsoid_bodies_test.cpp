@@ -10,8 +10,8 @@
 #include "convex_bodies.h"
 #include "shape/mesh_features.h"
 #include "shape/superellipsoid/superellipsoid.h"
-#include "shaped/shape_list.h"
 #include "shape/surface.h"
+#include "shaped/shape_list.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-bool touch(const Superellipsoid &a, const Pose &pose, const Geometry &b, const Pose &pose_b, ShapeContacts &contacts)
+bool touch(const Superellipsoid &a, const Pose &pose, const Geometry &b, const Pose &pose_b,
+           ShapeContacts &contacts)
 {
   const Collisions::Collision collision = collisions_of_shapes().find(a, b);
   EXPECT_TRUE(static_cast<bool>(collision));
@@ -35,12 +36,9 @@ bool touch(const Superellipsoid &a, const Pose &pose, const Geometry &b, const P
 
 const std::vector<Superellipsoid> &particles()
 {
-  static const std::vector<Superellipsoid> shapes = {{{0.5, 0.4, 0.25}, 2.0, 2.0},
-                                                     {{0.6, 0.2, 0.2}, 2.0, 2.0},
-                                                     {{0.5, 0.5, 0.2}, 2.0, 2.0},
-                                                     {{0.4, 0.3, 0.35}, 4.0, 4.0},
-                                                     {{0.3, 0.3, 0.4}, 6.0, 2.0},
-                                                     {{0.4, 0.3, 0.3}, 3.0, 5.0}};
+  static const std::vector<Superellipsoid> shapes = {
+      {{0.5, 0.4, 0.25}, 2.0, 2.0}, {{0.6, 0.2, 0.2}, 2.0, 2.0}, {{0.5, 0.5, 0.2}, 2.0, 2.0},
+      {{0.4, 0.3, 0.35}, 4.0, 4.0}, {{0.3, 0.3, 0.4}, 6.0, 2.0}, {{0.4, 0.3, 0.3}, 3.0, 5.0}};
   return shapes;
 }
 
@@ -53,7 +51,7 @@ Pose placed(const Superellipsoid &shape, Height height, double overlap, RandomBo
   const Vector m = random.direction();    // from the body to the shape
   const Vector lowest = pose.direction_in_space(shape.at_normal(-pose.direction_in_body(m)).place);
   pose.position = height(m).place - lowest - overlap * m +
-      0.01 * shape.inscribed_radius() * cross(m, random.direction());
+                  0.01 * shape.inscribed_radius() * cross(m, random.direction());
   return pose;
 }
 
@@ -64,16 +62,18 @@ struct Highest {
 
 /// Compares with the least overlap over all directions; shallow contacts must agree.
 template <class Height>
-void compare(const Geometry &body, const Pose &pose_b, Height height, RandomBodies &random, int count,
-             double depth = 0.03)
+void compare(const Geometry &body, const Pose &pose_b, Height height, RandomBodies &random,
+             int count, double depth = 0.03)
 {
   ShapeContacts contacts;
   int touching = 0, apart = 0;
   for (int k = 0; k < count; k++) {
     const Superellipsoid &a = particles()[k % particles().size()];
-    const Pose pose = placed(a, height, a.inscribed_radius() * random.uniform(-depth, depth), random);
+    const Pose pose =
+        placed(a, height, a.inscribed_radius() * random.uniform(-depth, depth), random);
     const double expected = least_of_all_directions([&](const Vector &m) {
-      return a.at_normal(pose.direction_in_body(m)).height + height(m).height - dot(m, pose.position);
+      return a.at_normal(pose.direction_in_body(m)).height + height(m).height -
+             dot(m, pose.position);
     });
     const bool touches = touch(a, pose, body, pose_b, contacts);
     // at edges the search of all directions is slow to converge
@@ -133,7 +133,8 @@ TEST(SuperellipsoidBodies, cylinders_and_cones_from_outside)
   struct Radii {
     double low, high, size;
   };
-  for (const Radii &r : {Radii{0.4, 0.4, 1.0}, Radii{0.8, 0.3, 0.6}, Radii{0.6, 0.0, 1.0}, Radii{0.1, 0.1, 2.0}}) {
+  for (const Radii &r :
+       {Radii{0.4, 0.4, 1.0}, Radii{0.8, 0.3, 0.6}, Radii{0.6, 0.0, 1.0}, Radii{0.1, 0.1, 2.0}}) {
     const Vector center{0.1, 0.2, -0.3}, axis = random.direction();
     const Frustum body(center, axis, r.low, r.high, r.size, false);
     RoundSurface surface;
@@ -157,18 +158,21 @@ TEST(SuperellipsoidBodies, cylinders_and_cones_from_outside)
 
 TEST(SuperellipsoidBodies, endless_cylinder)
 {
-  const Frustum body({0, 0, 0}, {0, 0, 1}, 0.7, 0.7, std::numeric_limits<double>::infinity(), false);
+  const Frustum body({0, 0, 0}, {0, 0, 1}, 0.7, 0.7, std::numeric_limits<double>::infinity(),
+                     false);
   RoundSurface surface;
   surface.body = &body;
   const Superellipsoid egg({0.3, 0.2, 0.4}, 2.0, 2.0);
   ShapeContacts contacts;
-  ASSERT_TRUE(touch(egg, Pose({0.0, 0.89, 5.0}, Eigen::Quaterniond::Identity()), surface, Pose(), contacts));
+  ASSERT_TRUE(touch(egg, Pose({0.0, 0.89, 5.0}, Eigen::Quaterniond::Identity()), surface, Pose(),
+                    contacts));
   ASSERT_EQ(contacts.points.size(), 1U);
   EXPECT_NEAR(contacts.points[0].overlap, 0.01, 1e-14);
   EXPECT_NEAR(contacts.points[0].normal.y, 1.0, 1e-14);
   EXPECT_NEAR(contacts.points[0].position.y, 0.695, 1e-14);
   EXPECT_NEAR(contacts.points[0].position.z, 5.0, 1e-9);
-  EXPECT_FALSE(touch(egg, Pose({0.0, 0.91, 5.0}, Eigen::Quaterniond::Identity()), surface, Pose(), contacts));
+  EXPECT_FALSE(touch(egg, Pose({0.0, 0.91, 5.0}, Eigen::Quaterniond::Identity()), surface, Pose(),
+                     contacts));
 }
 
 /* ---- planes and spheres ----------------------------------------------------------------------- */
@@ -228,7 +232,8 @@ template <class Depth> double outermost(const Superellipsoid &a, const Pose &pos
 TEST(SuperellipsoidBodies, inside_of_drums_cones_and_balls)
 {
   RandomBodies random(25);
-  const Frustum drum({0, 0, 0}, {0, 0, 1}, 2.0, 2.0, 3.0, true), cone({0, 0, 0}, {0, 0, 1}, 1.0, 2.5, 3.0, true);
+  const Frustum drum({0, 0, 0}, {0, 0, 1}, 2.0, 2.0, 3.0, true),
+      cone({0, 0, 0}, {0, 0, 1}, 1.0, 2.5, 3.0, true);
   const double tilt = std::atan2(1.5, 3.0);
   const Ball ball({0, 0, 0}, 2.0, true);
   const auto radial = [](const Vector &x) { return std::hypot(x.x, x.y); };
@@ -239,14 +244,18 @@ TEST(SuperellipsoidBodies, inside_of_drums_cones_and_balls)
   };
   const Wall walls[] = {
       {&drum, [&](const Vector &x) { return 2.0 - radial(x); },
-       [](double angle, double r) { return Vector{(2.0 - r) * std::cos(angle), (2.0 - r) * std::sin(angle), 0.2}; }},
+       [](double angle, double r) {
+         return Vector{(2.0 - r) * std::cos(angle), (2.0 - r) * std::sin(angle), 0.2};
+       }},
       {&cone, [&](const Vector &x) { return (1.75 + 0.5 * x.z - radial(x)) * std::cos(tilt); },
        [tilt](double angle, double r) {
          const double rho = 1.75 - r / std::cos(tilt);
          return Vector{rho * std::cos(angle), rho * std::sin(angle), 0.0};
        }},
       {&ball, [&](const Vector &x) { return 2.0 - length(x); },
-       [](double angle, double r) { return Vector{(2.0 - r) * std::cos(angle), 0.0, (2.0 - r) * std::sin(angle)}; }}};
+       [](double angle, double r) {
+         return Vector{(2.0 - r) * std::cos(angle), 0.0, (2.0 - r) * std::sin(angle)};
+       }}};
   ShapeContacts contacts;
   for (const Wall &wall : walls) {
     VesselSurface vessel;
@@ -259,7 +268,8 @@ TEST(SuperellipsoidBodies, inside_of_drums_cones_and_balls)
       // touching, then moved by some of its size
       pose.position = wall.place(angle, a.bounding_radius());
       const double gap = outermost(a, pose, wall.distance);
-      pose.position = wall.place(angle, a.bounding_radius() - gap - 0.02 * random.uniform(-1.0, 2.0));
+      pose.position =
+          wall.place(angle, a.bounding_radius() - gap - 0.02 * random.uniform(-1.0, 2.0));
       const double expected = -outermost(a, pose, wall.distance);
       ASSERT_EQ(touch(a, pose, vessel, Pose(), contacts), expected > 0.0) << k << " " << expected;
       if (!(expected > 0.0)) continue;
@@ -283,14 +293,16 @@ TEST(SuperellipsoidBodies, a_needle_across_a_pipe_touches_with_both_ends)
   const Superellipsoid needle({0.95, 0.1, 0.1}, 2.0, 2.0);
   ShapeContacts contacts;
   // off the axis by d: the ends are at the wall where d^2 + .95^2 = 1
-  ASSERT_TRUE(touch(needle, Pose({0.0, 0.35, 0.0}, Eigen::Quaterniond::Identity()), vessel, Pose(), contacts));
+  ASSERT_TRUE(touch(needle, Pose({0.0, 0.35, 0.0}, Eigen::Quaterniond::Identity()), vessel, Pose(),
+                    contacts));
   ASSERT_EQ(contacts.points.size(), 2U);
   EXPECT_NE(contacts.points[0].name, contacts.points[1].name);
   EXPECT_NEAR(contacts.points[0].overlap, contacts.points[1].overlap, 1e-12);
   EXPECT_GT(contacts.points[0].overlap, std::hypot(0.95, 0.35) - 1.0);
   EXPECT_NEAR(contacts.points[0].position.x, -contacts.points[1].position.x, 1e-9);
   // against a cap it has one
-  ASSERT_TRUE(touch(needle, Pose({0.0, 0.0, 4.45}, Eigen::Quaterniond::Identity()), vessel, Pose(), contacts));
+  ASSERT_TRUE(touch(needle, Pose({0.0, 0.0, 4.45}, Eigen::Quaterniond::Identity()), vessel, Pose(),
+                    contacts));
   ASSERT_EQ(contacts.points.size(), 1U);
   EXPECT_NEAR(contacts.points[0].overlap, 0.05, 1e-12);
 }
@@ -353,7 +365,8 @@ TEST(SuperellipsoidBodies, a_floor_of_triangles_is_a_plane)
   for (int k = 0; k < 1000; k++) {
     const Superellipsoid &a = particles()[k % particles().size()];
     Pose pose({random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), 0.0}, random.orientation());
-    if (k % 5 == 0) pose = Pose({0.0, 0.5, 0.0}, Eigen::Quaterniond::Identity());    // over a vertex
+    if (k % 5 == 0)
+      pose = Pose({0.0, 0.5, 0.0}, Eigen::Quaterniond::Identity());    // over a vertex
     pose.position.z = a.at_normal(-pose.direction_in_body({0, 0, 1})).height - 0.005;
     ASSERT_TRUE(touch(a, pose, mesh, Pose(), contacts)) << k;
     ASSERT_EQ(contacts.points.size(), 1U) << k;
@@ -365,8 +378,9 @@ TEST(SuperellipsoidBodies, a_floor_of_triangles_is_a_plane)
 
 TEST(SuperellipsoidBodies, the_edge_and_corner_of_a_plate)
 {
-  const MeshSurface plate = mesh_of({{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}}, {{{-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}},
-                                    MeshSide::BOTH);
+  const MeshSurface plate =
+      mesh_of({{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}}, {{{-1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}},
+              MeshSide::BOTH);
   const Superellipsoid egg({0.3, 0.4, 0.5}, 2.0, 2.0);
   const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
   ShapeContacts contacts;

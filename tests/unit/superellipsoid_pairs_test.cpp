@@ -45,8 +45,7 @@ class RandomPairs : public RandomBodies {
   {
     Pose pose({0.0, 0.0, 0.0}, orientation());
     normal = direction();
-    const Vector of_b =
-        pose.direction_in_space(b.at_normal(pose.direction_in_body(normal)).place);
+    const Vector of_b = pose.direction_in_space(b.at_normal(pose.direction_in_body(normal)).place);
     pose.position = a.at_normal(normal).place + of_b - overlap * normal;
     return pose;
   }
@@ -74,8 +73,8 @@ TEST(SuperellipsoidPairs, each_result_is_proven)
       const Superellipsoid &a = pool[random.below(6)], &b = pool[random.below(6)];
       const double least = std::min(a.inscribed_radius(), b.inscribed_radius()),
                    size = a.bounding_radius() + b.bounding_radius();
-      const double wanted = least * std::pow(10.0, random.uniform(-8.0, -1.3)) *
-          (random.chance(0.5) ? 1.0 : -1.0);
+      const double wanted =
+          least * std::pow(10.0, random.uniform(-8.0, -1.3)) * (random.chance(0.5) ? 1.0 : -1.0);
       Vector normal;
       const Pose seen = random.touching(a, b, wanted, normal);
       const CommonNormal found = find_common_normal(a, b, seen);
@@ -106,8 +105,7 @@ TEST(SuperellipsoidPairs, each_result_is_proven)
 
 double least_of_all(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen)
 {
-  return least_of_all_directions(
-      [&](const Vector &n) { return overlap_along(a, b, seen, n); });
+  return least_of_all_directions([&](const Vector &n) { return overlap_along(a, b, seen, n); });
 }
 
 TEST(SuperellipsoidPairs, agree_with_a_search_of_all_directions)
@@ -238,7 +236,8 @@ TEST(SuperellipsoidPairs, follow_continuously)
     moved.position = moved.position + (step * least) * random.direction();
     const Vector axis = random.direction();
     moved.rotation = Eigen::AngleAxisd(step, to_eigen(axis)).toRotationMatrix() * moved.rotation;
-    const CommonNormal before = find_common_normal(a, b, seen), after = find_common_normal(a, b, moved);
+    const CommonNormal before = find_common_normal(a, b, seen),
+                       after = find_common_normal(a, b, moved);
     ASSERT_GT(after.overlap, 0.0);
     largest = std::max(largest, length(after.normal - before.normal) / step);
   }

@@ -23,8 +23,8 @@ constexpr double pi = 3.14159265358979323846;
 const std::vector<Superellipsoid> &all_kinds()
 {
   static const std::vector<Superellipsoid> shapes = {
-      {{1.0, 1.0, 1.0}, 2.0, 2.0},  {{1.0, 0.8, 0.5}, 2.0, 2.0},  {{1.0, 0.1, 0.1}, 2.0, 2.0},
-      {{0.7, 0.9, 0.4}, 4.0, 4.0},  {{0.5, 0.5, 1.0}, 8.0, 2.0},  {{0.5, 0.6, 0.3}, 2.0, 5.0},
+      {{1.0, 1.0, 1.0}, 2.0, 2.0},   {{1.0, 0.8, 0.5}, 2.0, 2.0}, {{1.0, 0.1, 0.1}, 2.0, 2.0},
+      {{0.7, 0.9, 0.4}, 4.0, 4.0},   {{0.5, 0.5, 1.0}, 8.0, 2.0}, {{0.5, 0.6, 0.3}, 2.0, 5.0},
       {{0.3, 0.3, 0.3}, 12.0, 12.0}, {{1.0, 0.4, 0.2}, 2.5, 3.3}, {{0.4, 0.7, 1.0}, 20.0, 20.0}};
   return shapes;
 }
@@ -55,7 +55,8 @@ Eigen::Vector4d integrals(const Superellipsoid &shape)
   constexpr int count = 400;
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();    // 1, x^2, y^2, z^2
   const Vector h = shape.half_axes();
-  const auto node = [](int k, double &weight) {    // smooth at both ends: midpoints of s^2 (3 - 2 s)
+  const auto node = [](int k,
+                       double &weight) {    // smooth at both ends: midpoints of s^2 (3 - 2 s)
     const double s = (k + 0.5) / count;
     weight = 30.0 * s * s * (1.0 - s) * (1.0 - s) / count;
     return s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
@@ -65,8 +66,8 @@ Eigen::Vector4d integrals(const Superellipsoid &shape)
     const double x = node(i, wx), top = std::pow(1.0 - std::pow(x, shape.n2()), 1.0 / shape.n2());
     for (int j = 0; j < count; j++) {
       const double y = top * node(j, wy);
-      const double rho = std::pow(std::pow(x, shape.n2()) + std::pow(y, shape.n2()),
-                                  shape.n1() / shape.n2());
+      const double rho =
+          std::pow(std::pow(x, shape.n2()) + std::pow(y, shape.n2()), shape.n1() / shape.n2());
       const double z = std::pow(std::max(1.0 - rho, 0.0), 1.0 / shape.n1());
       const double w = 8.0 * wx * wy * top * z;
       sum += w * Eigen::Vector4d(1.0, x * x, y * y, z * z / 3.0);
@@ -154,7 +155,8 @@ TEST(Superellipsoid, curvature_is_the_turn_of_the_normal)
 TEST(Superellipsoid, curvature_at_the_poles_of_an_ellipsoid)
 {
   const double a = 1.0, b = 0.6, c = 0.3;
-  const Superellipsoid mean({a, b, c}, 2.0, 2.0), gaussian({a, b, c}, 2.0, 2.0, SurfaceRadius::GAUSSIAN),
+  const Superellipsoid mean({a, b, c}, 2.0, 2.0),
+      gaussian({a, b, c}, 2.0, 2.0, SurfaceRadius::GAUSSIAN),
       volume({a, b, c}, 2.0, 2.0, SurfaceRadius::VOLUME);
   const auto at = [](const Superellipsoid &shape, const Vector &n) {
     return shape.curvature_for_laws(shape.at_normal(n));
@@ -215,7 +217,8 @@ TEST(Superellipsoid, refuses)
     return "";
   };
   EXPECT_NE(text({1, 1, 0}, 2, 2).find("half axes"), std::string::npos);
-  EXPECT_EQ(text({1, 1, 1}, 1.5, 2), "the exponent n1 is 1.5 and must be between 2 (round) and 20 (nearly a box)");
+  EXPECT_EQ(text({1, 1, 1}, 1.5, 2),
+            "the exponent n1 is 1.5 and must be between 2 (round) and 20 (nearly a box)");
   EXPECT_NE(text({1, 1, 1}, 2, 21).find("exponent n2 is 21"), std::string::npos);
   EXPECT_NE(text({1, 1, 1}, 2, std::nan("")).find("exponent n2"), std::string::npos);
   EXPECT_EQ(text({1, 2, 3}, 2, 20), "");

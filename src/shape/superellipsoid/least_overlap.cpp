@@ -126,10 +126,7 @@ template <class Other> class Search {
     double overlap, ratio;    ///< of n . d and the sum of the heights
   };
   State at_normal(const Vector &n) const { return state(n, a.at_normal(n), b.at_normal(n)); }
-  State at(const Point &of_a) const
-  {
-    return state(of_a.normal, of_a, b.at_normal(of_a.normal));
-  }
+  State at(const Point &of_a) const { return state(of_a.normal, of_a, b.at_normal(of_a.normal)); }
 
   enum class Goal { LEAST_OVERLAP, LARGEST_RATIO };
   /// Improves the state until nothing can be gained but rounding. `stops`: as soon as they are apart.
@@ -170,7 +167,8 @@ template <class Other> class Search {
      dp_a + dp_b - f dn = -g,   dn = K_a dp_a,   turn dn = move dp_b. */
 
 template <class Other>
-typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal, bool curved_leads) const
+typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal,
+                                                  bool curved_leads) const
 {
   const Vector &n = x.normal;
   Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
@@ -207,14 +205,14 @@ typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal, boo
 }
 
 /* Far away a step is halved until it gains something. Near by, where gains vanish in rounding, steps are taken as
-   they are, as long as they shrink. Where they hardly do, each surface may be the flatter one in some direction: they
+   they are, as long as they shrink; the digits double with each. Where they hardly do, each surface may be the flatter one in some direction: they
    lead in turn. */
 
 template <class Other>
 typename Search<Other>::State Search<Other>::descend(State x, Goal goal, bool stops) const
 {
   constexpr int most_steps = 60, most_halvings = 30;
-  constexpr double near_by = 1.0e-4, noise = 1.0e-10, enough = 1.0e-13;
+  constexpr double near_by = 1.0e-4, last = 1.0e-8, noise = 1.0e-10, enough = 1.0e-13;
   double near = near_by * size, before = 1.0e9 * size;
   bool curved_leads = false;
   for (int step = 0; step < most_steps; step++) {
@@ -222,11 +220,13 @@ typename Search<Other>::State Search<Other>::descend(State x, Goal goal, bool st
     const Way way = newton(x, goal, curved_leads);
     const double far = length(way.along);
     if (far <= enough * size) break;
+    const bool fast = far < 1.0e-3 * before;
     if (far > 0.5 * before) curved_leads = !curved_leads;
     before = far;
     if (far < 0.5 * near) {
       near = far;
       x = moved(x, way, 1.0);
+      if (fast && far < last * size) break;
       continue;
     }
     if (far <= noise * size) break;
@@ -255,8 +255,8 @@ Vector first_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose
   };
   Eigen::Matrix3d sum = seen.rotation * squares(b).asDiagonal() * seen.rotation.transpose();
   sum.diagonal() += squares(a);
-  const Vector d = seen.position, p{sum(0, 0), sum(0, 1), sum(0, 2)}, q{sum(1, 0), sum(1, 1), sum(1, 2)},
-               r{sum(2, 0), sum(2, 1), sum(2, 2)};
+  const Vector d = seen.position, p{sum(0, 0), sum(0, 1), sum(0, 2)},
+               q{sum(1, 0), sum(1, 1), sum(1, 2)}, r{sum(2, 0), sum(2, 1), sum(2, 2)};
   // the inverse of a symmetric matrix, but for a factor > 0
   const Vector n = d.x * cross(q, r) + d.y * cross(r, p) + d.z * cross(p, q);
   const double size = length(n);
@@ -276,7 +276,7 @@ double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pos
                      const Vector &normal)
 {
   return a.at_normal(normal).height + b.at_normal(seen.direction_in_body(normal)).height -
-      dot(normal, seen.position);
+         dot(normal, seen.position);
 }
 
 CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen)
@@ -296,8 +296,8 @@ CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b
   if (!(first.ratio > 0.0)) return result(x, other);    // the same center
   PairSearch::State touching = search.descend(first, PairSearch::Goal::LARGEST_RATIO, true);
   touching = search.descend(touching, PairSearch::Goal::LEAST_OVERLAP, true);
-  return result(touching.overlap < x.overlap || touching.overlap < 0.0 || !is_shallow ? touching : x,
-                other);
+  return result(
+      touching.overlap < x.overlap || touching.overlap < 0.0 || !is_shallow ? touching : x, other);
 }
 
 /* ---- a ball ----------------------------------------------------------------------------------- */
@@ -307,7 +307,8 @@ CommonNormal find_common_normal(const Superellipsoid &a, const Vector &center, d
   using BallSearch = Search<OtherBall>;
   const OtherBall ball(center, radius);
   const BallSearch search(a, ball);
-  const bool at_center = !(dot(center, center) > 1.0e-24 * a.inscribed_radius() * a.inscribed_radius());
+  const bool at_center =
+      !(dot(center, center) > 1.0e-24 * a.inscribed_radius() * a.inscribed_radius());
   const BallSearch::State x =
       search.descend(search.at(at_center ? a.nearest_pole() : a.on_ray(center)),
                      BallSearch::Goal::LEAST_OVERLAP, false);

@@ -28,19 +28,21 @@
 namespace Talus {
 
 struct CommonNormal {
-  Vector3<double> normal;            ///< n
-  double overlap;                    ///< f(n); negative: they are apart
-  Superellipsoid::Point of_a;        ///< in the frame of a
-  Vector3<double> place_on_b;        ///< the same
-  double curvature_of_b = 0.0;       ///< as laws have it, of a superellipsoid that touches
+  Vector3<double> normal;         ///< n
+  double overlap;                 ///< f(n); negative: they are apart
+  Superellipsoid::Point of_a;     ///< in the frame of a
+  Vector3<double> place_on_b;     ///< the same
+  double curvature_of_b = 0.0;    ///< as laws have it, of a superellipsoid that touches
 };
 
 /// Of two superellipsoids; b is at this pose in the frame of a. Apart: any direction in which they are.
-CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose &b_seen);
+CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b,
+                                const Pose &b_seen);
 
 /// Of a superellipsoid and a ball, or a point if its radius is 0: also where they are apart. A point deep inside
 /// may be nearest to several places: one of them.
-CommonNormal find_common_normal(const Superellipsoid &a, const Vector3<double> &center, double radius);
+CommonNormal find_common_normal(const Superellipsoid &a, const Vector3<double> &center,
+                                double radius);
 
 /// f(n) alone.
 double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pose &b_seen,

@@ -57,6 +57,8 @@ Superellipsoid::Superellipsoid(const Vector &half_axes, double n1, double n2,
       throw std::runtime_error("the half axes must be larger than 0");
   check_exponent(n1, "n1");
   check_exponent(n2, "n2");
+  square = {half.x * half.x, half.y * half.y, half.z * half.z};
+  inverse_square = {1.0 / square.x, 1.0 / square.y, 1.0 / square.z};
   outer = farthest(farthest(half.x, half.y, n2), half.z, n1);
   inner = std::min(std::min(half.x, half.y), half.z);
   least_curvature = 0.1 / outer;
@@ -85,7 +87,7 @@ double Superellipsoid::gauge(const Vector &x) const
   const double u = std::abs(x.x) / half.x, v = std::abs(x.y) / half.y, w = std::abs(x.z) / half.z;
   const double most = std::max(std::max(u, v), w);
   if (!(most > 0.0)) return 0.0;
-  if (exponent1 == 2.0 && exponent2 == 2.0) return std::sqrt(u * u + v * v + w * w);
+  if (is_ellipsoid()) return std::sqrt(u * u + v * v + w * w);
   // in units of the largest, so that no power underflows
   const double s = powers2.whole(u / most) + powers2.whole(v / most);
   return most * powers1.root(ratio(s) + powers1.whole(w / most));
@@ -145,7 +147,7 @@ Superellipsoid::Point Superellipsoid::point(const UnitPoint &u, const Vector &fr
   const double ia = 1.0 / half.x, ib = 1.0 / half.y, ic = 1.0 / half.z;
   const auto second = [&](double of_power, double y) {
     return inverse * rho *
-        ((exponent2 - 1.0) * divided(of_power, y, exponent2) + mixed * of_power * of_power);
+           ((exponent2 - 1.0) * divided(of_power, y, exponent2) + mixed * of_power * of_power);
   };
   p.xx = second(u.x_power, s) * ia * ia;
   p.yy = second(u.y_power, t) * ib * ib;
@@ -154,8 +156,27 @@ Superellipsoid::Point Superellipsoid::point(const UnitPoint &u, const Vector &fr
   return p;
 }
 
+/* Ellipsoids: with q = x^2/a^2 ... = 1 the normal is along x/a^2, and its length 1/height. */
+
+Superellipsoid::Point Superellipsoid::ellipsoid_point(const Vector &place, const Vector &normal,
+                                                      double height) const
+{
+  return {place,
+          normal,
+          height,
+          height * inverse_square.x,
+          height * inverse_square.y,
+          height * inverse_square.z,
+          0.0};
+}
+
 Superellipsoid::Point Superellipsoid::at_normal(const Vector &normal) const
 {
+  if (is_ellipsoid()) {
+    const Vector p{square.x * normal.x, square.y * normal.y, square.z * normal.z};
+    const double high = std::sqrt(dot(p, normal));
+    return ellipsoid_point((1.0 / high) * p, normal, high);
+  }
   double height;
   const UnitPoint u = unit_point_at(normal, height);
   Point found = point(u, normal);
@@ -167,6 +188,12 @@ Superellipsoid::Point Superellipsoid::at_normal(const Vector &normal) const
 Superellipsoid::Point Superellipsoid::on_ray(const Vector &x) const
 {
   const double scale = 1.0 / gauge(x);
+  if (is_ellipsoid()) {
+    const Vector place = scale * x, gradient{inverse_square.x * place.x, inverse_square.y * place.y,
+                                             inverse_square.z * place.z};
+    const double high = 1.0 / length(gradient);
+    return ellipsoid_point(place, high * gradient, high);
+  }
   UnitPoint p{};
   p.x = scale * std::abs(x.x) / half.x;
   p.y = scale * std::abs(x.y) / half.y;
@@ -205,8 +232,8 @@ double Superellipsoid::curvature_for_laws(const Point &at) const
   const Vector u = cross(n, t);
   const double tt = at.curvature(t, t), uu = at.curvature(u, u), tu = at.curvature(t, u);
   const double curvature = radius_kind == SurfaceRadius::MEAN
-      ? 0.5 * (tt + uu)
-      : std::sqrt(std::max(tt * uu - tu * tu, 0.0));
+                               ? 0.5 * (tt + uu)
+                               : std::sqrt(std::max(tt * uu - tu * tu, 0.0));
   return std::max(curvature, least_curvature);
 }
 
@@ -261,9 +288,9 @@ std::vector<Triangle> Superellipsoid::surface(int pieces) const
         const double angle = 0.5 * 1.57079632679489661923;    // tangents of equal angles
         const double s = std::tan(angle * (2.0 * i / count - 1.0)),
                      t = std::tan(angle * (2.0 * j / count - 1.0)) * side;
-        const Vector x = axis == 0 ? Vector{side, s, t}
-            : axis == 1            ? Vector{t, side, s}
-                                   : Vector{s, t, side};
+        const Vector x = axis == 0   ? Vector{side, s, t}
+                         : axis == 1 ? Vector{t, side, s}
+                                     : Vector{s, t, side};
         return on_ray({half.x * x.x, half.y * x.y, half.z * x.z}).place;
       };
       for (int i = 0; i < count; i++)

@@ -37,6 +37,7 @@ class Superellipsoid final : public Shape {
   const Vector3<double> &half_axes() const { return half; }
   double n1() const { return exponent1; }
   double n2() const { return exponent2; }
+  bool is_ellipsoid() const { return exponent1 == 2.0 && exponent2 == 2.0; }
 
   /// The factor by which the shape must be scaled for x to be on its surface: F^(1/n1), below 1 inside. A norm.
   double gauge(const Vector3<double> &x) const;
@@ -83,14 +84,19 @@ class Superellipsoid final : public Shape {
   };
   UnitPoint unit_point_at(const Vector3<double> &normal, double &height) const;
   Point point(const UnitPoint &u, const Vector3<double> &signs_from) const;
+  Point ellipsoid_point(const Vector3<double> &place, const Vector3<double> &normal,
+                        double height) const;
   void find_mass();
   void find_least_radius();
 
-  Vector3<double> half;
+  Vector3<double> half, square{}, inverse_square{};    // the last two of the half axes
   double exponent1, exponent2;
   struct Powers {    // of n: n, n - 1, and their inverse values
     Power whole, less, root, root_of_less;
-    explicit Powers(double n) : whole(n), less(n - 1.0), root(1.0 / n), root_of_less(1.0 / (n - 1.0)) {}
+    explicit Powers(double n) :
+        whole(n), less(n - 1.0), root(1.0 / n), root_of_less(1.0 / (n - 1.0))
+    {
+    }
   };
   Powers powers1, powers2;
   Power ratio;    // n1/n2

@@ -64,6 +64,7 @@ class WithMesh {
     const double along = std::clamp(dot(d, ridge.along) / dot(ridge.along, ridge.along), 0.0, 1.0);
     const Vector away = d - along * ridge.along;
     if (dot(away, away) >= reach * reach) return;
+    if (!may_act(ridge)) return;
     Found found;
     if (!touch.edge(ridge.from, ridge.along, 0.0, 0.0, found)) return;
     const Vector m = -found.normal;
@@ -87,6 +88,18 @@ class WithMesh {
     });
     if (!is_of_corner || !acts(m, corner.outward)) return;
     add(found, t, ContactParts::VERTEX_OF_B, static_cast<std::uint32_t>(corner.vertex));
+  }
+  /// A ridge is one from in front, a valley from behind: where that side acts, and the center is on it.
+  bool may_act(const Ridge &ridge) const
+  {
+    if (ridge.edge_kind == EdgeKind::BOUNDARY) return true;
+    const bool in_front = ridge.edge_kind == EdgeKind::RIDGE;
+    if (surface.side() == (in_front ? MeshSide::BACKS : MeshSide::NORMALS)) return false;
+    const Vector away = center - ridge.from;
+    const TriangleMesh &mesh = surface.surface();
+    return std::any_of(ridge.planes, ridge.planes + 2, [&](int t) {
+      return t < 0 || (dot(away, mesh.normal(t)) > 0.0) == in_front;
+    });
   }
   /// The normal says from which side of its triangles something that stands out is touched: does that act?
   bool acts(const Vector &normal, const Vector &outward) const

@@ -94,13 +94,14 @@ class Walls {
       add(normal, k);
     }
     if (!is_curved || !count) add(from_center.normal, 0);
-    for (int n = 0; n < count; n++) add_contact(found[n], part, count > 1 ? 1 + of_pole[n] : 0, contacts);
+    for (int n = 0; n < count; n++)
+      add_contact(found[n], part, count > 1 ? 1 + of_pole[n] : 0, contacts);
   }
   void add_contact(Found found, int part, int number, ShapeContacts &contacts) const
   {
     const Superellipsoid &shape = a.geometry;
-    found.curvature = shape.curvature_for_laws(
-        shape.at_normal(a.pose.direction_in_body(found.normal)));
+    found.curvature =
+        shape.curvature_for_laws(shape.at_normal(a.pose.direction_in_body(found.normal)));
     ShapeContact contact = shape_contact(found, 0.0, contact_name(ContactParts::WHOLE, number, 0));
     contact.surface = static_cast<std::uint32_t>(part);
     contact.part = part;
@@ -120,7 +121,8 @@ bool superellipsoid_and_vessel(const PlacedSuperellipsoid &a, const Placed<Vesse
                                const CollisionRequest & /*request*/, ShapeContacts &contacts)
 {
   contacts.clear();
-  if (b.geometry.body->distance_bound(a.pose.position) >= a.geometry.bounding_radius()) return false;
+  if (b.geometry.body->distance_bound(a.pose.position) >= a.geometry.bounding_radius())
+    return false;
   Walls(a, *b.geometry.body).find(contacts);
   return !contacts.points.empty();
 }

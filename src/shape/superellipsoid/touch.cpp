@@ -22,8 +22,8 @@ double rising_zero(double low, double high, double at_low, double at_high, Slope
   int side = 0;
   for (int step = 0; step < most_steps && high - low > enough; step++) {
     const bool halve = step % 3 == 2;
-    const double middle = halve ? 0.5 * (low + high)
-                                : (low * at_high - high * at_low) / (at_high - at_low);
+    const double middle =
+        halve ? 0.5 * (low + high) : (low * at_high - high * at_low) / (at_high - at_low);
     const double there = slope(middle);
     if (there == 0.0) return middle;
     if (there < 0.0) {
@@ -75,12 +75,40 @@ bool SuperellipsoidTouch::is_beyond(const Vector &x, double distance) const
 {
   const Vector own = at.point_in_body(x), half = shape.half_axes();
   return std::abs(own.x) >= half.x + distance || std::abs(own.y) >= half.y + distance ||
-      std::abs(own.z) >= half.z + distance;
+         std::abs(own.z) >= half.z + distance;
+}
+
+bool SuperellipsoidTouch::is_beyond(const Vector &from, const Vector &along, double distance) const
+{
+  const Vector own = at.point_in_body(from), way = at.direction_in_body(along),
+               half = shape.half_axes();
+  const double x[3] = {own.x, own.y, own.z}, u[3] = {way.x, way.y, way.z},
+               h[3] = {half.x + distance, half.y + distance, half.z + distance};
+  double begin = 0.0, end = 1.0;    // of the part of the line that is between all sides
+  for (int k = 0; k < 3; k++) {
+    if (u[k] == 0.0) {
+      if (std::abs(x[k]) >= h[k]) return true;
+      continue;
+    }
+    const double one = (-h[k] - x[k]) / u[k], other = (h[k] - x[k]) / u[k];
+    begin = std::max(begin, std::min(one, other));
+    end = std::min(end, std::max(one, other));
+  }
+  if (begin >= end) return true;
+  if (distance > 0.0 || !shape.is_ellipsoid()) return false;
+  double uu = 0.0, ux = 0.0;    // in units of the half axes
+  for (int k = 0; k < 3; k++) {
+    uu += u[k] * u[k] / (h[k] * h[k]);
+    ux += u[k] * x[k] / (h[k] * h[k]);
+  }
+  const double t = std::clamp(-ux / uu, 0.0, 1.0);
+  return shape.gauge(own + t * way) >= 1.0;
 }
 
 bool SuperellipsoidTouch::edge(const Vector &from, const Vector &along, double r0, double r1,
                                Found &found) const
 {
+  if (is_beyond(from, along, std::max(r0, r1))) return false;
   const auto look = [&](double t) {
     found = ball(from + t * along, r0 + t * (r1 - r0));
     return dot(found.normal, along) - (r1 - r0);    // d(distance)/dt
@@ -119,7 +147,8 @@ bool SuperellipsoidTouch::circle(const Circle &rim, Found &found) const
   // away from `first` until the slope changes
   const double begin = look(first);
   if (begin == 0.0) return found.overlap > 0.0;
-  const double step = std::min(0.2, shape.bounding_radius() / rim.radius) * (begin < 0.0 ? 1.0 : -1.0);
+  const double step =
+      std::min(0.2, shape.bounding_radius() / rim.radius) * (begin < 0.0 ? 1.0 : -1.0);
   double last = first, slope_last = begin;
   for (int k = 1; k <= 2 * samples; k++) {
     const double next = first + k * step, slope = look(next);

@@ -14,7 +14,8 @@ namespace Talus {
 
 /// A circle.
 struct Circle {
-  Vector3<double> center, side, other;    ///< the last two: unit vectors in its plane, at right angles
+  Vector3<double> center, side,
+      other;    ///< the last two: unit vectors in its plane, at right angles
   double radius;
   Vector3<double> at(double angle) const
   {
@@ -34,12 +35,12 @@ class SuperellipsoidTouch {
   }
 
   struct Found {
-    Vector normal;     ///< outward
-    Vector place;      ///< on the surface of the shape
-    Vector middle;     ///< half way to the other surface
+    Vector normal;                                           ///< outward
+    Vector place;                                            ///< on the surface of the shape
+    Vector middle;                                           ///< half way to the other surface
     Vector other() const { return 2.0 * middle - place; }    ///< on that surface
-    double overlap;    ///< negative: apart by that
-    double curvature;    ///< as laws have it, if they touch
+    double overlap;                                          ///< negative: apart by that
+    double curvature;                                        ///< as laws have it, if they touch
   };
   /// With a plane whose normal points to the shape.
   Found plane(const Vector &normal, double offset) const;
@@ -62,6 +63,8 @@ class SuperellipsoidTouch {
   bool is_beyond(const Vector &x, double distance) const;
 
  private:
+  /// The same of the points of a straight line; of an ellipsoid and the distance 0, no point is inside of it.
+  bool is_beyond(const Vector &from, const Vector &along, double distance) const;
   Found in_space(const CommonNormal &found) const;
 
   const Superellipsoid &shape;
