@@ -51,7 +51,7 @@ class Pages(unittest.TestCase):
         scenes = re.findall(r"^\| `(\w+)` \| ([\d ]+) \|", text, re.M)
         self.assertEqual(sorted(name for name, _ in scenes), ["dice", "drum", "gravel", "hopper", "lentils", "penetration", "settling", "wavetank"])
         for name, number in scenes:
-            self.assertRegex(read(os.path.join(ROOT, "input", f"in.{name}")), rf"scripts/run.* {number} (spheres|cubes|stones)\n")
+            self.assertRegex(read(os.path.join(ROOT, "input", f"in.{name}")), rf"scripts/run.* {number} (spheres|cubes|stones|grains)\n")
 
 
 if __name__ == "__main__":
