@@ -8,9 +8,12 @@ Collisions::Collision Collisions::find(const Geometry &a, const Geometry &b) con
 {
   const std::type_index of_a = typeid(a), of_b = typeid(b);
   const auto direct = functions.find({of_a, of_b});
-  if (direct != functions.end()) return {direct->second, false};
+  if (direct != functions.end()) {
+    const auto many = of_many.find({of_a, of_b});
+    return {direct->second, false, many != of_many.end() ? many->second : nullptr};
+  }
   const auto exchanged = functions.find({of_b, of_a});
-  if (exchanged != functions.end()) return {exchanged->second, true};
+  if (exchanged != functions.end()) return {exchanged->second, true, nullptr};
   return {};
 }
 

@@ -47,8 +47,20 @@ struct CollisionRequest {
   SeparatingDirection *direction = nullptr;    ///< of two particles: to be read and written
 };
 
+/// One of several pairs whose contacts are asked for together: `contacts` has been cleared and is to be filled.
+struct CollisionJob {
+  const Geometry *a, *b;
+  const Pose *pose_a, *pose_b;
+  SeparatingDirection *direction;
+  ShapeContacts *contacts;
+};
+
 class Collisions {
  public:
+  /// Finds the contacts of several pairs of the same two classes, in this order, as the function of one pair does:
+  /// to the same bits, whatever the others are.
+  using OfMany = void (*)(const CollisionJob *jobs, int count);
+
   using Function = bool (*)(const Geometry &a, const Pose &pose_a, const Geometry &b,
                             const Pose &pose_b, const CollisionRequest &request,
                             ShapeContacts &contacts);
@@ -56,14 +68,19 @@ class Collisions {
   /// Adds functions as above. Of two for the same classes the later one counts.
   template <auto... functions> void add() { (Adder<functions>::add(*this), ...); }
 
+  /// For two classes that have a function already: the same for several pairs, if that pays.
+  template <class A, class B> void add_many(OfMany many) { of_many[{typeid(A), typeid(B)}] = many; }
+
   /// Contacts of two things whose classes are known to the table.
   class Collision {
    public:
     Collision() = default;
-    Collision(Function collision_function, bool is_exchanged) :
-        function(collision_function), exchanged(is_exchanged)
+    Collision(Function collision_function, bool is_exchanged, OfMany many_function) :
+        function(collision_function), many(many_function), exchanged(is_exchanged)
     {
     }
+    /// nullptr: pairs are to be looked at one by one.
+    OfMany of_many() const { return many; }
     /// false: they cannot touch, and operator() must not be called.
     explicit operator bool() const { return function != nullptr; }
     /// Normals point to a; names and the direction are those of a and b.
@@ -72,6 +89,7 @@ class Collisions {
 
    private:
     Function function = nullptr;
+    OfMany many = nullptr;
     bool exchanged = false;
   };
   Collision find(const Geometry &a, const Geometry &b) const;
@@ -79,7 +97,9 @@ class Collisions {
  private:
   template <auto function> struct Adder;
 
-  std::map<std::pair<std::type_index, std::type_index>, Function> functions;
+  using Classes = std::pair<std::type_index, std::type_index>;
+  std::map<Classes, Function> functions;
+  std::map<Classes, OfMany> of_many;
 };
 
 /* How a function with classes of its own is called. */

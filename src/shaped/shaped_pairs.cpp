@@ -10,7 +10,7 @@
 namespace Talus {
 namespace {
 
-constexpr int pairs_of_chunk = 32;
+constexpr int pairs_of_chunk = 128;
 constexpr std::size_t size_message = 2 + 1 + point_history_size;    // IDs, name, history
 
 }    // namespace
@@ -39,7 +39,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
   chunks.clear();
   const int all = static_cast<int>(list.size());
   for (int begin = 0; begin < all; begin += pairs_of_chunk)
-    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}, {}});
+    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}});
   set_sides(view, tag);
 }
 
@@ -159,11 +159,11 @@ void ShapedPairs::receive(const std::vector<double> &message, ContactLists &to) 
 void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const Step &step)
 {
   if (list.empty()) return;
-  while (static_cast<int>(batches.size()) < step.threads)
-    batches.push_back(std::make_unique<PointBatch>());
+  while (static_cast<int>(scratch.size()) < step.threads)
+    scratch.push_back(std::make_unique<Scratch>());
   place_solids(view, step.threads);
   in_ranges(static_cast<std::int64_t>(chunks.size()), step.threads, [&](int t, int begin, int end) {
-    for (int c = begin; c < end; c++) compute_chunk(view, laws, step, chunks[c], *batches[t]);
+    for (int c = begin; c < end; c++) compute_chunk(view, laws, step, chunks[c], *scratch[t]);
   });
   add_to_particles(view, step.threads);
   if (step.account) account(*step.account);
@@ -185,39 +185,67 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
 }
 
 void ShapedPairs::compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step,
-                                Chunk &chunk, PointBatch &batch)
+                                Chunk &chunk, Scratch &with)
 {
   std::swap(chunk.points, chunk.before);
   std::swap(chunk.pair_of_point, chunk.pair_before);
   chunk.points.clear();
   chunk.pair_of_point.clear();
+  find_contacts(laws, chunk, with);
   std::size_t old = 0;
-  for (int p = chunk.begin; p < chunk.end; p++) find_points(view, laws, step, chunk, p, old);
-  batch.compute({laws, step.dt, step.advance, step.account}, chunk.points.data(),
-                chunk.points.size());
+  for (int p = chunk.begin; p < chunk.end; p++)
+    take_points(view, step, chunk, p, with.found[p - chunk.begin], old);
+  with.batch.compute({laws, step.dt, step.advance, step.account}, chunk.points.data(),
+                     chunk.points.size());
   sum_points(chunk);
+}
+
+/* Pairs whose contacts are found several at a time come last. */
+
+void ShapedPairs::find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with)
+{
+  with.found.resize(pairs_of_chunk);
+  with.jobs.clear();
+  with.of_job.clear();
+  for (int p = chunk.begin; p < chunk.end; p++) {
+    ShapeContacts &found = with.found[p - chunk.begin];
+    found.clear();
+    Pair &pair = list[p];
+    const Solid &a = solids[pair.first], &b = solids[pair.second];
+    if (!a.may_touch(b)) continue;
+    if (pair.collision.of_many()) {
+      with.jobs.push_back(
+          {&a.geometry(), &b.geometry(), &a.pose, &b.pose, &pair.direction, &found});
+      with.of_job.push_back(pair.collision.of_many());
+      continue;
+    }
+    const CollisionRequest request{laws.force_exponent(pair.row), shapes.method(), &pair.direction};
+    pair.collision(a.geometry(), a.pose, b.geometry(), b.pose, request, found);
+  }
+  const int count = static_cast<int>(with.jobs.size());
+  for (int begin = 0, end = 0; begin < count; begin = end) {
+    while (end < count && with.of_job[end] == with.of_job[begin]) end++;
+    with.of_job[begin](&with.jobs[begin], end - begin);
+  }
 }
 
 /* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
 
-void ShapedPairs::find_points(const ShapedView &view, const LawTable &laws, const Step &step,
-                              Chunk &chunk, int p, std::size_t &old)
+void ShapedPairs::take_points(const ShapedView &view, const Step &step, Chunk &chunk, int p,
+                              const ShapeContacts &found, std::size_t &old)
 {
-  Pair &pair = list[p];
+  const Pair &pair = list[p];
   const std::size_t known = old;
   while (old < chunk.pair_before.size() && chunk.pair_before[old] == p) old++;
-  const Solid &a = solids[pair.first], &b = solids[pair.second];
-  if (!a.may_touch(b)) return;
-  const CollisionRequest request{laws.force_exponent(pair.row), shapes.method(), &pair.direction};
-  if (!pair.collision(a.geometry(), a.pose, b.geometry(), b.pose, request, chunk.found)) return;
-  if (chunk.found.core_depth > chunk.cores.depth)
-    chunk.cores = {chunk.found.core_depth, chunk.found.core_ratio, pair.first, pair.second};
+  if (found.points.empty()) return;
+  if (found.core_depth > chunk.cores.depth)
+    chunk.cores = {found.core_depth, found.core_ratio, pair.first, pair.second};
   const int i = pair.first, j = pair.second;
   const double change = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   PointContact point{};
   point.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
   point.row = pair.row;
-  for (const ShapeContact &one : chunk.found.points) {
+  for (const ShapeContact &one : found.points) {
     point.place = one.position;
     point.normal = one.normal;
     point.overlap = one.overlap;

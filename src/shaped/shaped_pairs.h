@@ -123,17 +123,24 @@ class ShapedPairs {
     int begin, end;    ///< pairs
     std::vector<PointContact> points, before;
     std::vector<int> pair_of_point, pair_before;
-    ShapeContacts found;
     CoreOverlap cores{};    ///< deepest since set_pairs()
+  };
+  /// Of a thread, for one chunk after the other.
+  struct Scratch {
+    PointBatch batch;
+    std::vector<ShapeContacts> found;    ///< by pair of the chunk
+    std::vector<CollisionJob> jobs;
+    std::vector<Collisions::OfMany> of_job;
   };
 
   template <class Visit> void for_each_point_of_pair(Visit visit) const;
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
   void place_solids(const ShapedView &view, int threads);
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
-                     PointBatch &batch);
-  void find_points(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
-                   int pair, std::size_t &old);
+                     Scratch &with);
+  void find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with);
+  void take_points(const ShapedView &view, const Step &step, Chunk &chunk, int pair,
+                   const ShapeContacts &found, std::size_t &old);
   void account(WorkAccount &to) const;
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
@@ -150,9 +157,9 @@ class ShapedPairs {
   std::vector<int> particles;     ///< owned ones that have pairs
   std::vector<int> first_side;    ///< of each of these in `sides`, and one more
   std::vector<Side> sides;
-  std::vector<int> used;                               ///< all that have pairs, owned or ghosts
-  std::vector<Solid> solids;                           ///< by local index, of those that have pairs
-  std::vector<std::unique_ptr<PointBatch>> batches;    ///< by thread
+  std::vector<int> used;                            ///< all that have pairs, owned or ghosts
+  std::vector<Solid> solids;                        ///< by local index, of those that have pairs
+  std::vector<std::unique_ptr<Scratch>> scratch;    ///< by thread
 };
 
 }    // namespace Talus

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 using namespace Talus;
@@ -216,6 +217,48 @@ TEST(SuperellipsoidPairs, points_find_their_foot)
       ASSERT_LT(length(found.of_a.place - p.place), 1.0e-8) << k;
     }
     k += 19;
+  }
+}
+
+/* ---- eight at a time -------------------------------------------------------------------------- */
+
+void expect_same(const CommonNormal &one, const CommonNormal &other)
+{
+  EXPECT_EQ(one.overlap, other.overlap);
+  EXPECT_EQ(one.curvature_of_b, other.curvature_of_b);
+  for (const auto &[x, y] :
+       {std::pair(one.normal, other.normal), std::pair(one.place_on_b, other.place_on_b),
+        std::pair(one.of_a.place, other.of_a.place)}) {
+    EXPECT_EQ(x.x, y.x);
+    EXPECT_EQ(x.y, y.y);
+    EXPECT_EQ(x.z, y.z);
+  }
+}
+
+/// Whatever stands in the other lanes, also pairs that need the second search: those of one at a time.
+TEST(SuperellipsoidPairs, eight_have_the_bits_of_one)
+{
+  RandomPairs random(17);
+  for (int k = 0; k < 2000; k++) {
+    const Kind &kind = kinds[k % 4];
+    const Superellipsoid a = random.shape(kind.aspect, kind.ellipsoids),
+                         other = random.shape(kind.aspect, kind.ellipsoids), &b = k % 3 ? other : a;
+    const double least = std::min(a.inscribed_radius(), b.inscribed_radius());
+    Pose seen[lanes];
+    Vector normals[lanes];
+    const int count = 1 + k % lanes;
+    for (int n = 0; n < count; n++)
+      seen[n] = random.touching(a, b, least * random.uniform(-0.05, n ? 0.06 : 0.5), normals[n]);
+    CommonNormal found[lanes];
+    find_common_normals(a, b, seen, count, found);
+    const unsigned apart = apart_along(a, b, seen, normals, count);
+    for (int n = 0; n < count; n++) {
+      expect_same(found[n], find_common_normal(a, b, seen[n]));
+      EXPECT_EQ((apart >> n & 1U) != 0U,
+                overlap_along(a, b, seen[n], normals[n]) <
+                    -1.0e-12 * (a.bounding_radius() + b.bounding_radius()));
+    }
+    k += 3;
   }
 }
 

@@ -38,12 +38,27 @@ TEST(Power, against_long_double)
     const double x = std::pow(10.0, random.uniform(-12.0, 2.0)), e = random.uniform(0.05, 12.0);
     const auto expected =
         static_cast<double>(std::pow(static_cast<long double>(x), static_cast<long double>(e)));
-    ASSERT_NEAR(power(x, e) / expected, 1.0, 4.0e-16 * (1.0 + std::abs(e * std::log(x))))
+    ASSERT_NEAR(Power(e)(x) / expected, 1.0, 4.0e-16 * (1.0 + std::abs(e * std::log(x))))
         << x << "^" << e;
   }
-  EXPECT_EQ(power(0.0, 0.3), 0.0);
-  EXPECT_EQ(power(1.0, 3.7), 1.0);
-  EXPECT_EQ(power(1.0e-200, 5.0), 0.0);
+  for (const double e : {0.25, 0.5, 1.0, 1.5, 2.0, 2.75, 7.0, 12.0})    // by products and roots
+    EXPECT_NEAR(Power(e)(1.7) / std::pow(1.7, e), 1.0, 3.0e-15) << e;
+  EXPECT_EQ(Power(0.3)(0.0), 0.0);
+  EXPECT_EQ(Power(3.7)(1.0), 1.0);
+  EXPECT_EQ(Power(5.3)(1.0e-200), 0.0);
+}
+
+TEST(Power, of_eight_numbers_has_the_same_bits)
+{
+  RandomSource random(7);
+  for (int k = 0; k < 10000; k++) {
+    const Power power(k % 3 ? random.uniform(0.05, 12.0) : 0.25 * (1 + random.below(40)));
+    alignas(64) double x[lanes], y[lanes];
+    for (double &one : x)
+      one = random.chance(0.1) ? 0.0 : std::pow(10.0, random.uniform(-120.0, 2.0));
+    store(y, power(load8(x)));
+    for (int n = 0; n < lanes; n++) ASSERT_EQ(power(x[n]), y[n]) << x[n];
+  }
 }
 
 /* ---- mass ------------------------------------------------------------------------------------- */

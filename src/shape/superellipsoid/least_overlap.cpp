@@ -2,275 +2,62 @@
 
 #include "shape/superellipsoid/least_overlap.h"
 
+#include "shape/superellipsoid/common_normal_search.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace Talus {
 namespace {
 
 using Vector = Vector3<double>;
-using Point = Superellipsoid::Point;
+using Pair = OtherSuperellipsoid<double>;
+using PairSearch = CommonNormalSearch<Pair>;
+using EightPairs = OtherSuperellipsoid<Vec8>;
+using EightSearch = CommonNormalSearch<EightPairs>;
 
-/// Components along two tangents.
-struct Flat {
-  double s, t;
-};
-struct FlatMatrix {    // rows
-  double ss, st, ts, tt;
-  Flat operator*(Flat v) const { return {ss * v.s + st * v.t, ts * v.s + tt * v.t}; }
-  FlatMatrix operator*(const FlatMatrix &m) const
-  {
-    return {ss * m.ss + st * m.ts, ss * m.st + st * m.tt, ts * m.ss + tt * m.ts,
-            ts * m.st + tt * m.tt};
-  }
-  FlatMatrix operator+(const FlatMatrix &m) const
-  {
-    return {ss + m.ss, st + m.st, ts + m.ts, tt + m.tt};
-  }
-  double trace() const { return ss + tt; }
-};
-FlatMatrix operator*(double factor, const FlatMatrix &m)
+// overlaps over the smaller inscribed radius for which f has one minimum near by
+constexpr double shallow = 0.1;
+
+SeenPose<double> seen_pose(const Pose &pose)
 {
-  return {factor * m.ss, factor * m.st, factor * m.ts, factor * m.tt};
+  SeenPose<double> seen;
+  seen.position = pose.position;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) seen.rotation[i][j] = pose.rotation(i, j);
+  return seen;
 }
 
-/* What the search knows of the other body: the point with a normal along n, mirrored about its center (so of
-   -n, since both kinds are symmetric), and how it moves when n turns by dn: turn * dn = move * dplace. */
-
-class OtherSuperellipsoid {
- public:
-  OtherSuperellipsoid(const Superellipsoid &superellipsoid, const Pose &b_seen) :
-      shape(superellipsoid), seen(b_seen)
-  {
-  }
-  static constexpr bool leads = true;
-
-  struct At {
-    Vector place;
-    double height;
-    Point own;
-  };
-  At at_normal(const Vector &n) const { return of(shape.at_normal(seen.direction_in_body(n))); }
-  /// Moved along the surface.
-  At moved(const At &from, const Vector &way, Vector &normal) const
-  {
-    const At to = of(shape.on_ray(from.own.place + seen.direction_in_body(way)));
-    normal = seen.direction_in_space(to.own.normal);
-    return to;
-  }
-  FlatMatrix curvature(const At &at, const Vector &s, const Vector &t) const
-  {
-    const Vector ls = seen.direction_in_body(s), lt = seen.direction_in_body(t);
-    const double st = at.own.curvature(ls, lt);
-    return {at.own.curvature(ls, ls), st, st, at.own.curvature(lt, lt)};
-  }
-  static FlatMatrix turn() { return {1.0, 0.0, 0.0, 1.0}; }
-  FlatMatrix move(const At &at, const Vector &s, const Vector &t) const
-  {
-    return curvature(at, s, t);
-  }
-  bool contains(const Vector &x) const { return shape.gauge(seen.point_in_body(x)) < 1.0; }
-  const Vector &center() const { return seen.position; }
-  double inscribed_radius() const { return shape.inscribed_radius(); }
-
-  const Superellipsoid &shape;
-
- private:
-  At of(const Point &own) const { return {seen.direction_in_space(own.place), own.height, own}; }
-
-  const Pose &seen;
-};
-
-class OtherBall {
- public:
-  OtherBall(const Vector &ball_center, double ball_radius) :
-      middle(ball_center), radius(ball_radius)
-  {
-  }
-  static constexpr bool leads = false;
-
-  struct At {
-    Vector place;
-    double height;
-  };
-  At at_normal(const Vector &n) const { return {radius * n, radius}; }
-  At moved(const At &from, const Vector & /*way*/, Vector & /*normal*/) const { return from; }
-  FlatMatrix curvature(const At & /*at*/, const Vector & /*s*/, const Vector & /*t*/) const
-  {
-    return {};
-  }
-  FlatMatrix turn() const { return {radius, 0.0, 0.0, radius}; }
-  FlatMatrix move(const At & /*at*/, const Vector & /*s*/, const Vector & /*t*/) const
-  {
-    return {1.0, 0.0, 0.0, 1.0};
-  }
-  const Vector &center() const { return middle; }
-
- private:
-  Vector middle;
-  double radius;
-};
-
-template <class Other> class Search {
- public:
-  Search(const Superellipsoid &superellipsoid, const Other &other_body) :
-      a(superellipsoid), b(other_body), d(other_body.center()),
-      size(superellipsoid.bounding_radius())
-  {
-  }
-
-  struct State {
-    Vector normal;
-    Point of_a;
-    typename Other::At of_b;
-    double overlap, ratio;    ///< of n . d and the sum of the heights
-  };
-  State at_normal(const Vector &n) const { return state(n, a.at_normal(n), b.at_normal(n)); }
-  State at(const Point &of_a) const { return state(of_a.normal, of_a, b.at_normal(of_a.normal)); }
-
-  enum class Goal { LEAST_OVERLAP, LARGEST_RATIO };
-  /// Improves the state until nothing can be gained but rounding. `stops`: as soon as they are apart.
-  State descend(State from, Goal goal, bool stops) const;
-
- private:
-  State state(const Vector &n, const Point &of_a, const typename Other::At &of_b) const
-  {
-    const double heights = of_a.height + of_b.height, away = dot(n, d);
-    return {n, of_a, of_b, heights - away, away / heights};
-  }
-  static double merit(const State &x, Goal goal)
-  {
-    return goal == Goal::LEAST_OVERLAP ? x.overlap : -x.ratio;
-  }
-  struct Way {
-    Vector along;    // on the surface of the leader
-    bool other_leads;
-  };
-  Way newton(const State &x, Goal goal, bool curved_leads) const;
-  State moved(const State &x, const Way &way, double part) const
-  {
-    const Vector along = part * way.along;
-    if (!way.other_leads) return at(a.on_ray(x.of_a.place + along));
-    Vector n;
-    const auto of_b = b.moved(x.of_b, along, n);
-    return state(n, a.at_normal(n), of_b);
-  }
-
-  const Superellipsoid &a;
-  const Other &b;
-  const Vector d;
-  const double size;
-};
-
-/* With curvatures K = dn/dp the condition t . (p_a + p_b - d) = 0 for tangents t yields, with the gradient g and
-   the overlap f (0 while the ratio is sought, for which d is scaled)
-     dp_a + dp_b - f dn = -g,   dn = K_a dp_a,   turn dn = move dp_b. */
-
-template <class Other>
-typename Search<Other>::Way Search<Other>::newton(const State &x, Goal goal,
-                                                  bool curved_leads) const
+double size_of_both(const Superellipsoid &a, const Superellipsoid &b)
 {
-  const Vector &n = x.normal;
-  Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
-  s = (1.0 / length(s)) * s;
-  const Vector t = cross(n, s);
-  const bool to_overlap = goal == Goal::LEAST_OVERLAP;
-  const double scale = to_overlap ? 1.0 : 1.0 / x.ratio, f = to_overlap ? x.overlap : 0.0;
-  const Vector gap = x.of_a.place + x.of_b.place - scale * d;
-  const Flat g{dot(s, gap), dot(t, gap)};
-  const double st = x.of_a.curvature(s, t);
-  const FlatMatrix of_a{x.of_a.curvature(s, s), st, st, x.of_a.curvature(t, t)};
-  const FlatMatrix move = b.move(x.of_b, s, t), turn = b.turn();
-  const FlatMatrix system = move + turn * of_a + (-f) * (move * of_a);
-  const Flat right = move * Flat{-g.s, -g.t};
-  const double determinant = system.ss * system.tt - system.st * system.ts;
-  Flat w{-g.s, -g.t};    // downhill, where Newton's direction is not
-  if (determinant != 0.0) {
-    const Flat solved{(system.tt * right.s - system.st * right.t) / determinant,
-                      (system.ss * right.t - system.ts * right.s) / determinant};
-    const Flat dn = of_a * solved;
-    if (dn.s * g.s + dn.t * g.t < 0.0) w = solved;
-  }
-  const Flat dn = of_a * w;
-  Way way{w.s * s + w.t * t, false};
-  if constexpr (Other::leads) {
-    const FlatMatrix of_b = b.curvature(x.of_b, s, t);
-    if ((of_b.trace() < of_a.trace()) != curved_leads) {
-      const Flat u{-g.s - w.s + f * dn.s, -g.t - w.t + f * dn.t};
-      const Flat turned = of_b * u;
-      if (turned.s * g.s + turned.t * g.t < 0.0) way = {u.s * s + u.t * t, true};
-    }
-  }
-  return way;
+  return std::max(a.bounding_radius(), b.bounding_radius());
 }
 
-/* Far away a step is halved until it gains something. Near by, where gains vanish in rounding, steps are taken as
-   they are, as long as they shrink; the digits double with each. Where they hardly do, each surface may be the flatter one in some direction: they
-   lead in turn. */
-
-template <class Other>
-typename Search<Other>::State Search<Other>::descend(State x, Goal goal, bool stops) const
-{
-  constexpr int most_steps = 60, most_halvings = 30;
-  constexpr double near_by = 1.0e-4, last = 1.0e-8, noise = 1.0e-10, enough = 1.0e-13;
-  double near = near_by * size, before = 1.0e9 * size;
-  bool curved_leads = false;
-  for (int step = 0; step < most_steps; step++) {
-    if (stops && x.overlap < 0.0) break;
-    const Way way = newton(x, goal, curved_leads);
-    const double far = length(way.along);
-    if (far <= enough * size) break;
-    const bool fast = far < 1.0e-3 * before;
-    if (far > 0.5 * before) curved_leads = !curved_leads;
-    before = far;
-    if (far < 0.5 * near) {
-      near = far;
-      x = moved(x, way, 1.0);
-      if (fast && far < last * size) break;
-      continue;
-    }
-    if (far <= noise * size) break;
-    double part = 1.0;
-    State next = moved(x, way, part);
-    for (int half = 0; half < most_halvings && !(merit(next, goal) < merit(x, goal)); half++) {
-      part *= 0.5;
-      next = moved(x, way, part);
-    }
-    if (!(merit(next, goal) < merit(x, goal))) break;
-    x = next;
-  }
-  return x;
-}
-
-/* ---- two superellipsoids ---------------------------------------------------------------------- */
-
-/* The normal at half way of F. Perram and M. S. Wertheim, J. Comput. Phys. 58, 409 (1985), of ellipsoids with these
-   half axes. */
-
-Vector first_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen)
-{
-  const auto squares = [](const Superellipsoid &shape) {
-    const Vector &h = shape.half_axes();
-    return Eigen::Vector3d(h.x * h.x, h.y * h.y, h.z * h.z);
-  };
-  Eigen::Matrix3d sum = seen.rotation * squares(b).asDiagonal() * seen.rotation.transpose();
-  sum.diagonal() += squares(a);
-  const Vector d = seen.position, p{sum(0, 0), sum(0, 1), sum(0, 2)},
-               q{sum(1, 0), sum(1, 1), sum(1, 2)}, r{sum(2, 0), sum(2, 1), sum(2, 2)};
-  // the inverse of a symmetric matrix, but for a factor > 0
-  const Vector n = d.x * cross(q, r) + d.y * cross(r, p) + d.z * cross(p, q);
-  const double size = length(n);
-  return size > 0.0 ? (1.0 / size) * n : a.nearest_pole().normal;
-}
-
-CommonNormal result(const Search<OtherSuperellipsoid>::State &x, const OtherSuperellipsoid &b)
+CommonNormal result(const PairSearch::State &x, const Pair &b, const Superellipsoid &shape_b)
 {
   CommonNormal found{x.normal, x.overlap, x.of_a, b.center() - x.of_b.place, 0.0};
-  if (x.overlap > 0.0) found.curvature_of_b = b.shape.curvature_for_laws(x.of_b.own);
+  if (x.overlap > 0.0) found.curvature_of_b = shape_b.curvature_for_laws(x.of_b.own);
   return found;
 }
 
+/// What touches has a point between the surfaces that is inside both, and is not deep.
+template <class Other, class State>
+auto is_proven(const SuperellipsoidSurface &a, const Other &b, const State &x, double deep)
+{
+  using Real = typename Other::Real;
+  const Real one = splat<Real>(1.0), half = splat<Real>(0.5);
+  const auto middle = half * (x.of_a.place + (b.center() - x.of_b.place));
+  const auto in_b = b.seen.direction_in_b(middle - b.center());
+  return (x.overlap < splat<Real>(deep)) & (a.gauge(middle) < one) & (b.shape.gauge(in_b) < one);
+}
+
+double deep_overlap(const Superellipsoid &a, const Superellipsoid &b)
+{
+  return shallow * std::min(a.inscribed_radius(), b.inscribed_radius());
+}
+
 }    // namespace
+
+/* ---- two superellipsoids ---------------------------------------------------------------------- */
 
 double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen,
                      const Vector &normal)
@@ -279,39 +66,118 @@ double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pos
          dot(normal, seen.position);
 }
 
-CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen)
+CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b, const Pose &pose)
 {
-  // overlaps that are small enough for f to have one minimum near by
-  constexpr double shallow = 0.1;
-  using PairSearch = Search<OtherSuperellipsoid>;
-  const OtherSuperellipsoid other(b, seen);
-  const PairSearch search(a, other);
-  const PairSearch::State first = search.at_normal(first_normal(a, b, seen));
-  PairSearch::State x = search.descend(first, PairSearch::Goal::LEAST_OVERLAP, true);
-  if (x.overlap < 0.0) return result(x, other);
-  const Vector on_b = seen.position - x.of_b.place, middle = 0.5 * (x.of_a.place + on_b);
-  const bool is_shallow =
-      x.overlap < shallow * std::min(a.inscribed_radius(), b.inscribed_radius());
-  if (is_shallow && a.gauge(middle) < 1.0 && other.contains(middle)) return result(x, other);
-  if (!(first.ratio > 0.0)) return result(x, other);    // the same center
-  PairSearch::State touching = search.descend(first, PairSearch::Goal::LARGEST_RATIO, true);
-  touching = search.descend(touching, PairSearch::Goal::LEAST_OVERLAP, true);
-  return result(
-      touching.overlap < x.overlap || touching.overlap < 0.0 || !is_shallow ? touching : x, other);
+  const SeenPose<double> seen = seen_pose(pose);
+  const Pair other(b.formulas(), seen);
+  const PairSearch search(a.formulas(), other, size_of_both(a, b));
+  const PairSearch::State first =
+      search.at_normal(first_normal(a.formulas(), b.formulas(), seen, a.nearest_pole().normal));
+  const PairSearch::State x = search.descend(first, PairSearch::Goal::LEAST_OVERLAP, true, true);
+  if (x.overlap < 0.0 || is_proven(a.formulas(), other, x, deep_overlap(a, b)))
+    return result(x, other, b);
+  if (!(first.ratio > 0.0)) return result(x, other, b);    // the same center
+  PairSearch::State touching = search.descend(first, PairSearch::Goal::LARGEST_RATIO, true, true);
+  touching = search.descend(touching, PairSearch::Goal::LEAST_OVERLAP, true, true);
+  const bool is_deep = !(x.overlap < deep_overlap(a, b));
+  return result(touching.overlap < x.overlap || touching.overlap < 0.0 || is_deep ? touching : x,
+                other, b);
+}
+
+/* ---- eight pairs ------------------------------------------------------------------------------ */
+
+namespace {
+
+struct Columns {    // of eight poses, or of what is found
+  alignas(64) double value[12][lanes];
+  Vec8 operator[](int k) const { return load8(value[k]); }
+};
+
+SeenPose<Vec8> seen_poses(const Pose *poses, int count)
+{
+  Columns columns;
+  for (int lane = 0; lane < lanes; lane++) {
+    const Pose &pose = poses[std::min(lane, count - 1)];
+    for (int k = 0; k < 9; k++) columns.value[k][lane] = pose.rotation(k / 3, k % 3);
+    columns.value[9][lane] = pose.position.x;
+    columns.value[10][lane] = pose.position.y;
+    columns.value[11][lane] = pose.position.z;
+  }
+  SeenPose<Vec8> seen;
+  for (int k = 0; k < 9; k++) seen.rotation[k / 3][k % 3] = columns[k];
+  seen.position = {columns[9], columns[10], columns[11]};
+  return seen;
+}
+
+Vector lane_of(const Vector3<Vec8> &v, int k)
+{
+  return {v.x[k], v.y[k], v.z[k]};
+}
+
+PointWithNormal<double> lane_of(const PointWithNormal<Vec8> &p, int k)
+{
+  return {
+      lane_of(p.place, k), lane_of(p.normal, k), p.height[k], p.xx[k], p.yy[k], p.zz[k], p.xy[k]};
+}
+
+}    // namespace
+
+unsigned apart_along(const Superellipsoid &a, const Superellipsoid &b, const Pose *poses,
+                     const Vector *normals, int count)
+{
+  const SeenPose<Vec8> seen = seen_poses(poses, count);
+  Columns columns;
+  for (int lane = 0; lane < lanes; lane++) {
+    const Vector &n = normals[std::min(lane, count - 1)];
+    columns.value[0][lane] = n.x;
+    columns.value[1][lane] = n.y;
+    columns.value[2][lane] = n.z;
+  }
+  const Vector3<Vec8> n{columns[0], columns[1], columns[2]};
+  const Vec8 overlap = a.formulas().at_normal(n).height +
+                       b.formulas().at_normal(seen.direction_in_b(n)).height -
+                       dot(n, seen.position);
+  const double rounding = 1.0e-12 * (a.bounding_radius() + b.bounding_radius());
+  return less_bits(overlap, splat<Vec8>(-rounding)) & ((1U << count) - 1U);
+}
+
+void find_common_normals(const Superellipsoid &a, const Superellipsoid &b, const Pose *poses,
+                         int count, CommonNormal *found)
+{
+  const SeenPose<Vec8> seen = seen_poses(poses, count);
+  const EightPairs others(b.formulas(), seen);
+  const EightSearch search(a.formulas(), others, size_of_both(a, b));
+  const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
+  const EightSearch::State x = search.descend(
+      search.at_normal(first_normal(a.formulas(), b.formulas(), seen, a.nearest_pole().normal)),
+      EightSearch::Goal::LEAST_OVERLAP, true, zero < one);
+  const auto proven = (x.overlap < zero) | is_proven(a.formulas(), others, x, deep_overlap(a, b));
+  const unsigned done = less_bits(select(proven, zero, one), splat<Vec8>(0.5));
+  for (int k = 0; k < count; k++) {
+    if (!(done >> k & 1U)) {
+      found[k] = find_common_normal(a, b, poses[k]);
+      continue;
+    }
+    const Vector of_b = lane_of(x.of_b.place, k);
+    found[k] = {lane_of(x.normal, k), x.overlap[k], lane_of(x.of_a, k), poses[k].position - of_b,
+                0.0};
+    if (found[k].overlap > 0.0)
+      found[k].curvature_of_b = b.curvature_for_laws(lane_of(x.of_b.own, k));
+  }
 }
 
 /* ---- a ball ----------------------------------------------------------------------------------- */
 
 CommonNormal find_common_normal(const Superellipsoid &a, const Vector &center, double radius)
 {
-  using BallSearch = Search<OtherBall>;
+  using BallSearch = CommonNormalSearch<OtherBall>;
   const OtherBall ball(center, radius);
-  const BallSearch search(a, ball);
-  const bool at_center =
-      !(dot(center, center) > 1.0e-24 * a.inscribed_radius() * a.inscribed_radius());
+  const BallSearch search(a.formulas(), ball, a.bounding_radius());
+  const double inner = a.inscribed_radius();
+  const bool at_center = !(dot(center, center) > 1.0e-24 * inner * inner);
   const BallSearch::State x =
       search.descend(search.at(at_center ? a.nearest_pole() : a.on_ray(center)),
-                     BallSearch::Goal::LEAST_OVERLAP, false);
+                     BallSearch::Goal::LEAST_OVERLAP, false, true);
   return {x.normal, x.overlap, x.of_a, center - x.of_b.place, 0.0};
 }
 

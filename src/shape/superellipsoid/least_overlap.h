@@ -39,6 +39,14 @@ struct CommonNormal {
 CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b,
                                 const Pose &b_seen);
 
+/// The same of up to eight pairs of these two shapes at a time, with the same bits.
+void find_common_normals(const Superellipsoid &a, const Superellipsoid &b, const Pose *b_seen,
+                         int count, CommonNormal *found);
+
+/// Which of up to eight pairs are apart along these directions by more than rounding: one bit each.
+unsigned apart_along(const Superellipsoid &a, const Superellipsoid &b, const Pose *b_seen,
+                     const Vector3<double> *normals, int count);
+
 /// Of a superellipsoid and a ball, or a point if its radius is 0: also where they are apart. A point deep inside
 /// may be nearest to several places: one of them.
 CommonNormal find_common_normal(const Superellipsoid &a, const Vector3<double> &center,
