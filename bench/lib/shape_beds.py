@@ -100,8 +100,7 @@ def tetrahedron():
 
 BODIES = {"cubes": [cube()], "dodecahedra": [dodecahedron()], "tetrahedra": [tetrahedron()],
           "mixed": [cube(), dodecahedron(), None], "spheres": [None],
-          "ellipsoids": [Round((0.75, 0.64, 0.5))], "superellipsoids": [Round((0.6, 0.55, 0.5), 4.0, 4.0)],
-          "lentils": [Round((0.78, 0.78, 0.39))]}
+          "ellipsoids": [Round((0.75, 0.64, 0.5))], "superellipsoids": [Round((0.6, 0.55, 0.5), 4.0, 4.0)]}
 SPHERE = 1.24       # diameter: the volume of the cube
 SPACING = 1.75
 
