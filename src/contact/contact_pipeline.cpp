@@ -37,8 +37,9 @@ void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neig
   find_types(given.type);
   make_chunks();
   for_chunks([&](int c) { chunks[c].pairs.collect(order, work, rows, c); });
-  ghost_slots.assign(order.slot_of_atom.begin() + order.owned, order.slot_of_atom.end());
-  std::sort(ghost_slots.begin(), ghost_slots.end());
+  ghost_slots.clear();
+  for (int slot = 0; slot < order.size(); slot++)
+    if (!order.owns_slot(slot)) ghost_slots.push_back(slot);
   find_shared();
   deferred.collect(order, work, threads, [this](int c) { return &chunks[c].pairs; });
   pairs_known = true;
@@ -107,12 +108,6 @@ double ContactPipeline::Lists::memory_usage() const
                           is_loaded_before.size());
   for (const PairList &list : pairs) bytes += list.memory_usage();
   return bytes;
-}
-
-void ContactPipeline::sort_and_unite(std::vector<int> &slots)
-{
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
 }
 
 void ContactPipeline::find_shared()

@@ -213,7 +213,6 @@ class ContactPipeline {
   void load(const ParticleView &arrays, const ContactStep &step, int range, int begin, int end);
   void copy_states(const std::vector<int> &slots, int first_copy, int thread);
   void mark(const std::vector<int> &slots, std::vector<unsigned char> &marks) const;
-  static void sort_and_unite(std::vector<int> &slots);
   /// task(begin, end) for as many ranges of 0 ... n-1 as there are threads, at the same time.
   template <class Task> void in_ranges(std::int64_t n, Task task) const
   {

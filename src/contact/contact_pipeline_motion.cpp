@@ -4,6 +4,8 @@
 
 #include "contact/contact_pipeline.h"
 
+#include "base/nearly_sorted.h"
+
 #include <algorithm>
 #include <atomic>
 #include <iterator>

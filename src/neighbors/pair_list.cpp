@@ -2,6 +2,8 @@
 
 #include "neighbors/pair_list.h"
 
+#include "base/nearly_sorted.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -95,8 +97,7 @@ void PairList::find_frontier()
     at_frontier.push_back(static_cast<std::uint32_t>(c));
     if (is_foreign(first[c])) foreign.push_back(first[c]);
   }
-  std::sort(foreign.begin(), foreign.end());
-  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+  sort_and_unite(foreign);
   frontier_bits.assign(num_pairs() / 64 + 1, 0);
   for (const std::uint32_t c : at_frontier) frontier_bits[c / 64] |= std::uint64_t{1} << (c % 64);
   before_word.assign(frontier_bits.size(), 0);

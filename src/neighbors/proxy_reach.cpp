@@ -2,6 +2,8 @@
 
 #include "neighbors/proxy_reach.h"
 
+#include "base/nearly_sorted.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -159,10 +161,7 @@ ProxyReach::Lists ProxyReach::beyond_shells(int owned, const double *x, const do
     if (!is_in_shell(&spheres.x[3L * i], spheres.radius[i], domain))
       lists[domain].push_back(spheres.what[i]);
   });
-  for (std::vector<int> &list : lists) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  for (std::vector<int> &list : lists) sort_and_unite(list);
   return lists;
 }
 

@@ -6,11 +6,13 @@
 #include "system/present_box.h"
 #include "system/proxy_updates.h"
 
+#include "base/nearly_sorted.h"
+
 #include "comm.h"
 #include "domain.h"
 #include "timer.h"
 
-#include <algorithm>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -25,9 +27,7 @@ const std::vector<int> &ProxyStates::sent()
     for (const ExchangeNeighbor &n : proxies->plan().neighbors())
       sent_particles.insert(sent_particles.end(), n.send_index.begin(), n.send_index.end());
   }
-  std::sort(sent_particles.begin(), sent_particles.end());
-  sent_particles.erase(std::unique(sent_particles.begin(), sent_particles.end()),
-                       sent_particles.end());
+  sort_and_unite(sent_particles);
   sent_is_known = true;
   return sent_particles;
 }

@@ -23,6 +23,30 @@ void expect_sorted(std::vector<int> values)
   EXPECT_EQ(values, expected);
 }
 
+TEST(MergeRuns, ListsBehindEachOther)
+{
+  RandomSource random(22);
+  for (const int lists : {1, 2, 3, 4, 7, 26}) {
+    std::vector<int> values;
+    for (int list = 0; list < lists; list++) {
+      std::vector<int> one(random.below(200));
+      for (int &value : one) value = random.below(300);
+      std::sort(one.begin(), one.end());
+      values.insert(values.end(), one.begin(), one.end());
+    }
+    std::vector<int> expected = values;
+    std::sort(expected.begin(), expected.end());
+    expect_sorted(values);
+    std::vector<int> merged = values;
+    merge_runs(merged, std::less<>());
+    EXPECT_EQ(merged, expected);
+
+    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+    sort_and_unite(values);
+    EXPECT_EQ(values, expected);
+  }
+}
+
 TEST(NearlySorted, SortsAnyOrder)
 {
   RandomSource random(21);
