@@ -1,14 +1,17 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Run one benchmark: main.py NAME [options], called by scripts/bench, which prepares the environment.
+"""Run one benchmark or validation: main.py FOLDER NAME [options], called by scripts/bench and scripts/validate, which prepare the
+environment.
 
-A benchmark is a file bench/NAME.py with
+It is a file FOLDER/NAME.py with
     TITLE       heading of its section
     QUESTION    what is asked, one paragraph
     measure(bench)   runs everything and fills bench.section; see report.Section
-`bench` is the Bench object below.
+`bench` is the Bench object below. Of a validation the section is a page, see pages.Page; it fails where a published number is
+missed.
 """
 
 import argparse
+import dataclasses
 import importlib.util
 import os
 import shutil
@@ -18,6 +21,7 @@ import time
 
 import lammps
 import machine
+import pages
 import report
 
 
@@ -33,7 +37,7 @@ class Bench:
         self.cases = [options.cases, *options.cases.split(",")] if options.cases else None
         self.workdir = tempfile.mkdtemp(prefix=f"talus-bench-{name}-")
         self.out = options.out or default_out(options)
-        self.section = report.Section(name, module.TITLE, module.QUESTION, self)
+        self.section = KINDS[options.folder].section(name, module.TITLE, module.QUESTION, self)
         self.started = time.time()
 
     def wants(self, case):
@@ -54,23 +58,35 @@ class Bench:
         return os.path.join(self.workdir, name)
 
 
+@dataclasses.dataclass
+class Kind:
+    section: type
+    out: str        # below the root
+    report: str
+
+
+KINDS = {"bench": Kind(report.Section, "bench", "REPORT.md"),
+         "validate": Kind(pages.Page, os.path.join("doc", "validation"), "README.md")}
+
+
 def default_out(options):
     """Figures of the tree come from complete runs only."""
     if options.quick or options.cases:
-        return os.path.join(os.getcwd(), "out", "bench")
-    return os.path.join(machine.ROOT, "bench")
+        return os.path.join(os.getcwd(), "out", options.folder)
+    return os.path.join(machine.ROOT, KINDS[options.folder].out)
 
 
-def load(name):
-    path = os.path.join(machine.ROOT, "bench", name + ".py")
-    spec = importlib.util.spec_from_file_location("bench_" + name, path)
+def load(name, folder="bench"):
+    path = os.path.join(machine.ROOT, folder, name + ".py")
+    spec = importlib.util.spec_from_file_location(f"{folder}_{name}", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(prog="scripts/bench")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", choices=KINDS)
     parser.add_argument("name")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int)
@@ -82,7 +98,7 @@ def parse(words):
 
 def main(words):
     options = parse(words)
-    module = load(options.name)
+    module = load(options.name, options.folder)
     bench = Bench(options.name, options, module)
     bench.note(f"machine: {machine.describe_cpu()}, load {machine.load():.2f}")
     try:
@@ -96,8 +112,11 @@ def main(words):
             bench.note(f"scripts and logs are in {bench.workdir}")
         else:
             shutil.rmtree(bench.workdir, ignore_errors=True)
-    bench.note(f"done; report: {os.path.join(bench.out, 'REPORT.md')}")
-    return 0
+    bench.note(f"done; report: {os.path.join(bench.out, KINDS[options.folder].report)}")
+    missed = bench.section.failed()
+    for each in missed:
+        bench.note(f"missed: {', '.join(each.cells()[:3])}")
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":

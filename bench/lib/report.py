@@ -56,11 +56,19 @@ class Section:
         import plot
         file = self.name + (f"-{suffix}" if suffix else "") + ".svg"
         if plot.save(os.path.join(self._results(), file), draw):
-            self.blocks.append(f"![{caption}](results/{file})\n\n*{caption}*")
+            self.blocks.append(f"![{caption}]({self.picture(file)})\n\n*{caption}*")
         else:
             self.blocks.append(f"*(No plot: {caption}. matplotlib is not installed.)*")
 
+    def failed(self):
+        """What makes the command fail: nothing, since a benchmark only reports."""
+        return []
+
     # ---- writing
+
+    def picture(self, file):
+        """Its address in the text."""
+        return f"results/{file}"
 
     def _results(self):
         path = os.path.join(self.bench.out, "results")

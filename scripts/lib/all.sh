@@ -13,3 +13,5 @@
 . "$TALUS_LIB/plugin.sh"
 # shellcheck source=compilers.sh
 . "$TALUS_LIB/compilers.sh"
+# shellcheck source=measure.sh
+. "$TALUS_LIB/measure.sh"
