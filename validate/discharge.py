@@ -39,8 +39,8 @@ def discharge(bench, outlet, cores):
     mesh = bench.path(f"floor-{outlet}.stl")
     floor(mesh, 0.5 * outlet * D, 1.2 * radius)
     variables = {"outlet": outlet * D, "mesh": mesh, "radius": radius, "open": bench.size(0.1, 0.05), "watch": bench.size(0.4, 0.15)}
-    _, result = problems.run(bench, "discharge", f"outlet-{outlet}", variables, cores)
-    time, rest = zip(*result.printed("Rest"))
+    folder, result = problems.run(bench, "discharge", f"outlet-{outlet}", variables, cores)
+    time, rest = numpy.loadtxt(os.path.join(folder, "rest.txt")).T
     rate = -float(numpy.polyfit(time, rest, 1)[0])
     bench.note(f"hole of {outlet} diameters: {1e3 * rate:.1f} g/s")
     return rate, result.printed("Bulk")[0][0]

@@ -8,7 +8,11 @@ import statistics
 
 import numpy
 
+import machine
+import paired
 import problems
+import turned_mesh
+from lammps import LIGGGHTS, TALUS
 
 TITLE = "A rotating drum"
 QUESTION = """A drum of 42 mm inner radius and 20 mm length between flat ends, half full of nearly round grains of microcrystalline cellulose
@@ -99,11 +103,19 @@ def surface(axis, grains):
     return Surface(x, z, float((filled & inside).sum()) * PIXEL**2)
 
 
+def scale(bench):
+    return bench.size(1.0, 0.25)
+
+
+def case_name(law, rpm, seed):
+    return f"{law.replace(' ', '-')}-{rpm}-{seed}"
+
+
 def drum(bench, law, rpm, seed, cores):
-    case = f"{law.replace(' ', '-')}-{rpm}-{seed}"
+    case = case_name(law, rpm, seed)
     spin = max(0.6, TURN / (6.0 * rpm))
-    variables = {"rpm": rpm, "law": LAWS[law], "seed": seed, "scale": bench.size(1.0, 0.1), "spin": bench.size(spin, 0.3),
-                 "watch": bench.size(0.5, 0.2), "states": bench.size(100, 40)}
+    variables = {"rpm": rpm, "law": LAWS[law], "seed": seed, "scale": scale(bench), "spin": bench.size(spin, 0.3),
+                 "watch": bench.size(0.5, 0.2), "states": bench.size(100, 30)}
     folder, result = problems.run(bench, "drum", case, variables, cores)
     states = os.path.join(folder, "states.txt")
     found = surface(*image(*read_states(states)))
@@ -147,6 +159,7 @@ def measure(bench):
     bench.section.table(["rolling resistance", "turns per minute", "seed", "slope near the axis", "measured", "of the whole line", "measured",
                          "mean distance, mm", "higher by, mm", "area, mm^2", "ns per grain and step"], rows)
     words(bench)
+    beside_liggghts(bench, *wanted[0])
     bench.section.plot("", "Surfaces: lines of Talus with rolling cdt; points were measured", lambda plt: draw(plt, done))
 
 
@@ -154,6 +167,18 @@ def scatter(done, rpm):
     """Standard deviation of the slope over seeds."""
     slopes = [found.slope(10.0) for (law, speed, _), (found, _) in done.items() if law == "cdt" and speed == rpm]
     return statistics.stdev(slopes) if len(slopes) > 1 else float("nan")
+
+
+def beside_liggghts(bench, law, rpm, seed):
+    if not machine.LIGGGHTS:
+        bench.section.text("LIGGGHTS is not installed: nothing is compared with it.")
+        return
+    folder = bench.path(case_name(law, rpm, seed))
+    length = 0.02 * scale(bench)
+    series = turned_mesh.compare(folder, os.path.join(folder, "settled.txt"), 1e-3 * RADIUS, 0.5 * length, rpm, bench.rounds)
+    bench.section.text(f"""Beside LIGGGHTS {machine.liggghts_version()} of Debian, the drum a mesh of {4 * turned_mesh.SEGMENTS} triangles, the same law
+(`rolling cdt`), skin and time step, one core: {series[TALUS].median:.0f} ns per grain and step, LIGGGHTS {series[LIGGGHTS].median:.0f}; ratio
+{paired.ratio(series[LIGGGHTS], series[TALUS])} over {bench.rounds} rounds.""")
 
 
 def words(bench):

@@ -1,0 +1,26 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=600
+"""Small versions of problems with published answers: silo, column, shear. Those that take longer are in test_problems_long."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from small_problems import run_small
+
+
+class Problems(unittest.TestCase):
+
+    def test_silo(self):
+        run_small(self, "silo")
+
+    def test_collapse(self):
+        run_small(self, "collapse")
+
+    def test_shear(self):
+        run_small(self, "shear")
+
+
+if __name__ == "__main__":
+    unittest.main()

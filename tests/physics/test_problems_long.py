@@ -1,0 +1,26 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: label=slow timeout=1200
+"""Small versions of the problems with published answers that take longer: drum, bin, incline."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from small_problems import run_small
+
+
+class Problems(unittest.TestCase):
+
+    def test_drum(self):
+        run_small(self, "drum")
+
+    def test_discharge(self):
+        run_small(self, "discharge")
+
+    def test_chute(self):
+        run_small(self, "chute")
+
+
+if __name__ == "__main__":
+    unittest.main()
