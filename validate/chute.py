@@ -16,7 +16,7 @@ from it as mu(I) = mu_1 + (mu_2 - mu_1)/(I_0/I + 1), for glass beads with mu_1 =
 Nature 441, 727, 2006)."""
 
 ANGLES = (21.0, 22.5, 24.0, 25.5)
-STARTS = {21.0: 0.05, 22.5: 0.15, 24.0: 0.25, 25.5: 0.35}
+STARTS = {21.0: 0.02, 22.5: 0.046, 24.0: 0.078, 25.5: 0.125}     # near the end, so that it is steady soon
 STOPS = 17.0            # degrees: a slope that is too flat
 JOP = 0.382, 0.643, 0.279
 HEIGHT = 20
@@ -98,7 +98,7 @@ def draw(plt, profiles):
         shown = fraction > 0.3
         axes.plot(v[shown], z[shown], **plot.style(k, linestyle="none"), label=f"{angle} degrees")
         inner = shown & (z > 2) & (z < height - 2)
-        law = height**1.5 - (height - z) ** 1.5
+        law = height**1.5 - numpy.maximum(0.0, height - z) ** 1.5
         start = float((v - amplitude * law)[inner].mean())
         axes.plot(amplitude * law[inner] + start, z[inner], **plot.style(k, marker=None))
     axes.set_xlabel("speed, sqrt(g d)")

@@ -9,6 +9,8 @@ import unittest
 
 ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 PAGES = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "doc", "*.md")))]
+PROBLEMS = sorted(glob.glob(os.path.join(ROOT, "doc", "validation", "*.md")))
+LONGEST, LONGEST_COMMAND = 1700, 2100      # words of a page, of one on LAMMPS' template for commands
 
 
 def read(path):
@@ -27,7 +29,7 @@ class Pages(unittest.TestCase):
 
     def test_links(self):
         count = 0
-        for page in PAGES:
+        for page in PAGES + PROBLEMS:
             text = re.sub(r"^```.*?^```", "", read(page), flags=re.M | re.S)
             for link in re.findall(r"\]\(([^)\s]+)\)", text):
                 if re.match(r"https?:", link):
@@ -44,6 +46,12 @@ class Pages(unittest.TestCase):
     def test_all_pages_are_listed(self):
         listed = re.findall(r"\]\((\w+\.md)", read(os.path.join(ROOT, "doc", "README.md")))
         self.assertEqual(sorted(set(listed) | {"README.md"}), [os.path.basename(page) for page in PAGES[1:]])
+
+    def test_no_page_is_long(self):
+        for page in PAGES:
+            text = read(page)
+            limit = LONGEST_COMMAND if "\n## Syntax\n" in text else LONGEST
+            self.assertLessEqual(len(text.split()), limit, f"divide {os.path.relpath(page, ROOT)}")
 
     def test_first_page(self):
         text = read(PAGES[0])

@@ -114,7 +114,7 @@ class PageCase(SceneCase):
 class FromLammps(PageCase):
 
     def test_tables(self):
-        text = page("from_lammps.md")
+        text = page("from_lammps.md") + page("from_lammps_walls.md")
         compared = 0
         for theirs, ours, differs in rows(text, "LAMMPS"):
             theirs, ours = commands(theirs), commands(ours)
@@ -136,7 +136,7 @@ class FromLammps(PageCase):
         self.assertGreater(compared, 15)
 
     def test_one_law_for_many_bodies(self):
-        block, = blocks(page("from_lammps.md"))
+        block, = blocks(page("from_lammps.md") + page("from_lammps_walls.md"))
         self.simulate(block.splitlines(), {"pair", "fix floor"})
 
 
@@ -160,7 +160,7 @@ set group all density 2500"""
             *([] if any("nve/sphere" in line for line in late) else [self.MOVE]), *late, "run 20"])
 
     def test_tables(self):
-        text = page("from_liggghts.md")
+        text = page("from_liggghts.md") + page("from_liggghts_walls.md")
         scripts = [(theirs, commands(ours)) for theirs, ours, *_ in rows(text, "LIGGGHTS")]
         setup = [line for _, lines in scripts for line in lines
                  if line.split()[0] in ("atom_style", "comm_modify", "newton", "boundary", "neighbor", "neigh_modify")]
