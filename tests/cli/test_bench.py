@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: label=hostless
-"""scripts/bench: its errors, its report, and what its verdicts and fits are made of; no benchmark is run."""
+"""scripts/bench and scripts/validate: their errors, report and pages, and what verdicts and fits are made of; nothing is run."""
 
 import math
 import os
@@ -22,6 +22,7 @@ import function_stages
 import lammps
 import limits
 import main
+import pages
 import paired
 import projection
 import report
@@ -32,8 +33,8 @@ import verdict
 
 class Command(unittest.TestCase):
 
-    def said(self, *words):
-        done = subprocess.run([os.path.join(ROOT, "scripts", "bench"), *words], capture_output=True, text=True,
+    def said(self, *words, script="bench"):
+        done = subprocess.run([os.path.join(ROOT, "scripts", script), *words], capture_output=True, text=True,
                               stdin=subprocess.DEVNULL, timeout=60, check=False)
         return done.returncode, done.stdout + done.stderr
 
@@ -44,6 +45,41 @@ class Command(unittest.TestCase):
             status, text = self.said(*words)
             self.assertEqual(status, 1)
             self.assertIn(part, text)
+
+
+    def test_messages_of_validate(self):
+        self.assertEqual(self.said("--help", script="validate")[0], 0)
+        for words, part in ((("nonsense",), "no problem 'nonsense'; there are: chute"), ((), "which problem?"),
+                            (("drum", "--fast"), "unknown option '--fast'"), (("drum", "--cases"), "--cases needs a value")):
+            status, text = self.said(*words, script="validate")
+            self.assertEqual(status, 1)
+            self.assertIn(part, text)
+
+
+class Pages(unittest.TestCase):
+
+    def write(self, folder, name, found):
+        bench = types.SimpleNamespace(out=folder, quick=False, cases=None, rounds=3, asked_rounds=None, clock=lambda: "1:00")
+        page = pages.Page(name, f"Title of {name}", "Question?", bench)
+        page.result("height", found, 1.0, 2.0, "m", scatter=0.1)
+        page.result("width", 1.0, 0.0, 2.0)
+        page.write()
+        return page
+
+    def test_page_and_index(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.write(folder, "good", 1.5).failed(), [])
+            bad = self.write(folder, "bad", 2.5)
+            self.assertEqual([each.what for each in bad.failed()], ["height"])
+            with open(os.path.join(folder, "bad.md")) as file:
+                text = file.read()
+            self.assertTrue(text.startswith("# Title of bad\n"))
+            self.assertIn("| height | 2.5 +- 0.1 m | 1 to 2 | **no** |", text)
+            self.assertIn("repeat: `scripts/validate bad`", text)
+            with open(os.path.join(folder, "README.md")) as file:
+                index = file.read()
+            self.assertIn("| [Title of good](good.md) | height | 1.5 +- 0.1 m | 1 to 2 | yes |", index)
+            self.assertEqual(index.count("| | width | 1 | 0 to 2 | yes |"), 2)
 
 
 class Report(unittest.TestCase):

@@ -48,7 +48,7 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(set(listed) | {"README.md"}), [os.path.basename(page) for page in PAGES[1:]])
 
     def test_no_page_is_long(self):
-        for page in PAGES:
+        for page in PAGES[1:]:
             text = read(page)
             limit = LONGEST_COMMAND if "\n## Syntax\n" in text else LONGEST
             self.assertLessEqual(len(text.split()), limit, f"divide {os.path.relpath(page, ROOT)}")
