@@ -20,6 +20,7 @@ STARTS = {21.0: 0.02, 22.5: 0.046, 24.0: 0.078, 25.5: 0.125}     # near the end,
 STOPS = 17.0            # degrees: a slope that is too flat
 JOP = 0.382, 0.643, 0.279
 HEIGHT = 20
+NEAR_STOP = 22.0        # degrees: below, a layer of this height is close to the slope on which it stops
 
 
 def read_profile(path):
@@ -77,7 +78,8 @@ def measure(bench):
         number, mu = inertial_number(amplitude, fraction, angle), math.tan(math.radians(angle))
         rows.append([angle, height, amplitude, amplitude / before, explained, fraction, spread, number, mu, jop(number)])
         bench.section.record(angle=angle, amplitude=amplitude, fraction=fraction, inertial=number, mu=mu, jop=jop(number))
-        bench.section.result(f"variance of the speed that Bagnold's profile explains, {angle} degrees", explained, bench.size(0.99, 0.8), 1.0)
+        if angle > NEAR_STOP:
+            bench.section.result(f"variance of the speed that Bagnold's profile explains, {angle} degrees", explained, bench.size(0.99, 0.8), 1.0)
         bench.section.result(f"standard deviation of the solid fraction over depth, {angle} degrees", spread, 0.0, bench.size(0.01, 0.05))
         bench.section.result(f"tan(slope) over mu(I), {angle} degrees", mu / jop(number), bench.size(0.9, 0.7), bench.size(1.1, 1.3))
     bench.section.result(f"largest mean speed of a layer at {STOPS} degrees", float(numpy.abs(still[1][still[2] > 0.3]).max()), 0.0, 1e-3)
@@ -85,7 +87,9 @@ def measure(bench):
                          "its deviation", "I", "tan(slope)", "mu(I) of Jop et al."], rows)
     bench.section.text(f"""Spheres of one size, friction .5, e = .88, linear springs (stiffness 2e4 m g/d, after Silbert et al., whose results
 do not depend on it), {HEIGHT} diameters deep over a base of fixed spheres at random places, 10 diameters long and wide, periodic. Units:
-diameter, mass of a sphere, gravity. Layers within two diameters of base and surface are left out. Input script: `validate/in.chute`.""")
+diameter, mass of a sphere, gravity. Layers within two diameters of base and surface are left out. Near the slope on which a
+layer of its height stops, here at {min(ANGLES):.0f} degrees, the profile becomes a straight line (Silbert, Landry, Grest, Phys. Fluids 15, 1, 2003): it is not
+compared with Bagnold's there. Input script: `validate/in.chute`.""")
     bench.section.plot("", "Profiles of speed; lines are Bagnold's", lambda plt: draw(plt, profiles))
 
 
