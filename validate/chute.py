@@ -38,7 +38,7 @@ def read_profile(path):
 
 
 def flow(bench, angle, cores):
-    variables = {"angle": angle, "start": STARTS.get(angle, 0.2), "height": bench.size(HEIGHT, 8), "flow": bench.size(200, 20),
+    variables = {"angle": angle, "start": STARTS.get(angle, STARTS[21.0]), "height": bench.size(HEIGHT, 8), "flow": bench.size(200, 60),
                  "watch": bench.size(150, 10)}
     folder, result = problems.run(bench, "chute", f"angle-{angle}", variables, cores)
     profiles = read_profile(os.path.join(folder, "profile.txt"))

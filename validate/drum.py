@@ -114,7 +114,7 @@ def case_name(law, rpm, seed):
 def drum(bench, law, rpm, seed, cores):
     case = case_name(law, rpm, seed)
     spin = max(0.6, TURN / (6.0 * rpm))
-    variables = {"rpm": rpm, "law": LAWS[law], "seed": seed, "scale": scale(bench), "spin": bench.size(spin, 0.3),
+    variables = {"rpm": rpm, "law": LAWS[law], "seed": seed, "scale": scale(bench), "periodic": bench.size(0, 1), "spin": bench.size(spin, 0.5),
                  "watch": bench.size(0.5, 0.2), "states": bench.size(100, 30)}
     folder, result = problems.run(bench, "drum", case, variables, cores)
     states = os.path.join(folder, "states.txt")
@@ -152,7 +152,7 @@ def measure(bench):
         for x, z in zip(found.x, found.z):
             bench.section.record(law=law, rpm=rpm, seed=seed, x=x, z=round(z, 4))
         if law == "cdt" and seed == SEEDS[0]:
-            bound = bench.size(1.0, 4.0)
+            bound = bench.size(1.0, 6.0)      # a slice without ends, as in quick runs, is 9 degrees flatter
             bench.section.result(f"slope within 10 mm of the axis, {rpm} turns per minute", found.slope(10.0),
                                  measured[0] - bound * SLOPE_BOUND, measured[0] + bound * SLOPE_BOUND, "degrees", scatter(done, rpm))
             bench.section.result(f"mean distance from the measured line, {rpm} turns per minute", apart, 0.0, bound * HEIGHT_BOUND, "mm")
@@ -189,7 +189,8 @@ exact cylinder. Input script: `validate/in.drum`. A surface is found as from the
 pixel in 100 states of half a second, filled where it is more than 10/255 of its largest value, cut to r^2 < .6 R^2, highest pixel of
 each column. Slopes published for LIGGGHTS with these values, near the axis and of the whole line: {published} turns per minute.
 `sds` has a spring
-of 150 N/m. `cdt` fits best of these laws, with the coefficient that was fitted to it; without its trembling (`capped`) the slope is a degree
+of 150 N/m. Friction at the two ends makes the drum steep: a slice
+without ends (`-var periodic 1`) has 46 degrees at 45 turns per minute. `cdt` fits best of these laws, with the coefficient that was fitted to it; without its trembling (`capped`) the slope is a degree
 less, the two laws with a spring lie a millimetre too high.""")
 
 
