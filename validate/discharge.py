@@ -7,6 +7,7 @@ import os
 import numpy
 
 import problems
+import stl
 
 TITLE = "Discharge of a bin"
 QUESTION = """Grains run out of a flat-bottomed bin through a round hole of the diameter D at a rate that does not depend on what stands
@@ -23,14 +24,12 @@ def floor(path, outlet, radius):
     """A disc with a hole, at z = 0, as STL."""
     def ring(r, k):
         angle = 2 * math.pi * k / SEGMENTS
-        return f"{r * math.cos(angle):.9g} {r * math.sin(angle):.9g} 0"
-    with open(path, "w") as file:
-        file.write("solid floor\n")
-        for k in range(SEGMENTS):
-            a, b, c, d = ring(outlet, k), ring(radius, k), ring(radius, k + 1), ring(outlet, k + 1)
-            for corners in ((a, b, c), (a, c, d)):
-                file.write("facet normal 0 0 1\nouter loop\n" + "".join(f"vertex {corner}\n" for corner in corners) + "endloop\nendfacet\n")
-        file.write("endsolid floor\n")
+        return r * math.cos(angle), r * math.sin(angle), 0.0
+    triangles = []
+    for k in range(SEGMENTS):
+        a, b, c, d = ring(outlet, k), ring(radius, k), ring(radius, k + 1), ring(outlet, k + 1)
+        triangles += [(a, b, c), (a, c, d)]
+    stl.write(path, "floor", triangles)
 
 
 def discharge(bench, outlet, cores):

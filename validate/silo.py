@@ -10,8 +10,8 @@ TITLE = "The weight at the bottom of a silo"
 QUESTION = """Friction at the walls of a tube bears what is filled in, so that the mass which its floor feels comes to a limit:
 m_felt = m_s (1 - exp(-m/m_s)), m_s = rho_b pi R^3/(2 mu_w K), with the friction mu_w of the wall and the ratio K of horizontal to vertical
 stress (Janssen, Z. VDI 39, 1045, 1895), if friction is mobilized everywhere, as it is while the floor sinks (Bertho, Giorgiutti-Dauphine,
-Hulin, Phys. Rev. Lett. 90, 144301, 2003). K is between that of Jaky, 1 - sin(phi) = .6, and 1 for grains like these (Landry, Grest,
-Silbert, Plimpton, Phys. Rev. E 67, 041303, 2003)."""
+Hulin, Phys. Rev. Lett. 90, 144301, 2003). For these
+grains K should be between that of a bed at rest, 1 - sin(phi) = .6 (Jaky), and 1."""
 
 NUMBERS = (500, 1000, 2000, 4000, 8000, 16000)
 FRICTION, RADIUS = 0.3, 0.016

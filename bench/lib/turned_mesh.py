@@ -6,6 +6,7 @@ import os
 
 import lammps
 import paired
+import stl
 from lammps import LIGGGHTS, TALUS
 
 SEGMENTS = 120
@@ -50,15 +51,13 @@ def write_drum(path, radius, half):
     """Closed, along y, normals inward."""
     def rim(k, y):
         angle = 2 * math.pi * k / SEGMENTS
-        return f"{radius * math.cos(angle):.9g} {y:.9g} {radius * math.sin(angle):.9g}"
-    with open(path, "w") as file:
-        file.write("solid drum\n")
-        for k in range(SEGMENTS):
-            a, b, c, d = rim(k, -half), rim(k + 1, -half), rim(k + 1, half), rim(k, half)
-            low, high = f"0 {-half:.9g} 0", f"0 {half:.9g} 0"
-            for corners in ((a, b, c), (a, c, d), (low, b, a), (high, d, c)):
-                file.write("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {corner}\n" for corner in corners) + "endloop\nendfacet\n")
-        file.write("endsolid drum\n")
+        return radius * math.cos(angle), y, radius * math.sin(angle)
+    low, high = (0.0, -half, 0.0), (0.0, half, 0.0)
+    triangles = []
+    for k in range(SEGMENTS):
+        a, b, c, d = rim(k, -half), rim(k + 1, -half), rim(k + 1, half), rim(k, half)
+        triangles += [(a, b, c), (a, c, d), (low, b, a), (high, d, c)]
+    stl.write(path, "drum", triangles)
 
 
 def script(code, rpm):
