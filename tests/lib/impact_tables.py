@@ -97,9 +97,9 @@ class Impact:
         self.hertz = Hertz(material, radius, 2 * speed if pair else speed, pair)
 
 
-def collide(impacts, run, path, friction=0.0, every=None, gt="NULL"):
+def collide(impacts, run, path, friction=0.0, every=None, gt="NULL", plane=""):
     """Runs all impacts by run(script) in the folder of path(name); sets for each what came of it. Returns the frames and the ID of the
-    (upper) sphere of each."""
+    (upper) sphere of each. plane: words of its material in place of those of a rigid one with gt and friction."""
     dt = min(i.hertz.time for i in impacts) / STEPS_PER_CONTACT
     steps = int(2.0 * max(i.hertz.time for i in impacts) / dt) + 10
     radius = max(i.radius for i in impacts)
@@ -117,10 +117,10 @@ def collide(impacts, run, path, friction=0.0, every=None, gt="NULL"):
             spheres.append(Sphere((x, 0, -i.radius - gap), (-i.sideways, 0, i.speed), **common))
     write_sphere_data(path("data"), ((0, 4 * radius * len(impacts)), (-4 * radius, 4 * radius),
                                      (-4 * radius, 4 * radius)), spheres, types=len(words))
-    rigid = RIGID + (f" tangential multistep NULL {gt} {friction}" if friction else "")
+    plane = plane or RIGID + (f" tangential multistep NULL {gt} {friction}" if friction else "")
     run(SCRIPT.format(
         pairs="\n".join(f"pair_coeff {t} {t} {w}" for t, w in enumerate(words, 1)),
-        body="" if pair else f"fix floor all large/body plane 0 0 0 0 0 1 contact {rigid}",
+        body="" if pair else f"fix floor all large/body plane 0 0 0 0 0 1 contact {plane}",
         skin=0.2 * radius, dt=repr(dt), steps=steps, every=every or steps))
     frames = read_dump(path("out"))
     last = frames[-1]

@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=600
-"""Small versions of problems with published answers: impacts, silo, column, shear. Those that take longer are in test_problems_long."""
+"""Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear. Those that take longer are in test_problems_long."""
 
 import os
 import sys
@@ -14,6 +14,9 @@ class Problems(unittest.TestCase):
 
     def test_impacts(self):
         run_small(self, "impacts")
+
+    def test_mfix(self):
+        run_small(self, "mfix")
 
     def test_silo(self):
         run_small(self, "silo")

@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: label=slow timeout=1200
-"""Small versions of the problems with published answers that take longer: drum, bin, incline."""
+"""Small versions of the problems with published answers that take longer: drum, bin, incline, where a flow stops."""
 
 import os
 import sys
@@ -20,6 +20,9 @@ class Problems(unittest.TestCase):
 
     def test_chute(self):
         run_small(self, "chute")
+
+    def test_stop(self):
+        run_small(self, "stop")
 
 
 if __name__ == "__main__":
