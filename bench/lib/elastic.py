@@ -10,7 +10,7 @@ import tempfile
 
 import extreme
 import lammps
-from extreme import NU, YOUNG, Ball, Extreme
+from extreme_scene import NU, YOUNG, Ball, Extreme
 from lammps import SECOND
 
 R, MASS = 0.5, 1000 * math.pi / 6

@@ -1,59 +1,16 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Extreme scenes for Talus and for the stock styles, and what becomes of them."""
 
-import dataclasses
 import math
 
+import extreme_clumps
+import extreme_sizes
 import lammps
 import verdict
+from extreme_scene import NU, YOUNG, Ball, Extreme
 from lammps import SECOND, STOCK, TALUS
 
 COLUMNS = "id x y z vx vy vz omegax omegay omegaz fx fy fz tqx tqy tqz"
-YOUNG, NU = 1.0e7, 0.3
-
-
-@dataclasses.dataclass
-class Ball:
-    x: tuple
-    v: tuple = (0.0, 0.0, 0.0)
-    w: tuple = (0.0, 0.0, 0.0)
-    diameter: float = 1.0
-    density: float = 1000.0
-
-    def mass(self):
-        return self.density * math.pi / 6 * self.diameter**3
-
-
-@dataclasses.dataclass
-class Extreme:
-    """law: (kind, kn, gn, kt, gt, mu) of gran/*, or ("material", E, e, nu, mu). fraction: time step over the
-    smallest critical one of compute timestep/gran. planes: (axis, place, sign). frames: how many are looked at."""
-    name: str
-    balls: list
-    law: tuple
-    steps: int
-    box: tuple
-    fraction: float = 0.2
-    frames: int = 400
-    gravity: float = 0.0
-    planes: tuple = ()
-    periodic: str = "f f f"
-    fixed: tuple = ()            # indices of balls that are frozen
-    units: str = "si"
-    skin: float = 0.1
-    dt: float = 0.0              # instead of a fraction
-    creep: bool = False          # whether creep is what matters
-    midpoint: bool = False       # the second-order update of tangential displacements, with Talus
-
-    def hertz(self):
-        return self.law[0] in ("hertz", "material")
-
-    def stiffness(self):
-        if self.law[0] == "material":
-            return 4 / 3 * self.law[1] / (2 * (1 - self.law[3]**2))
-        return self.law[1]
-
-
 def talus_law(law, more="", limited=False):
     """more: words of the tangential law; limited: damping does not attract."""
     if law[0] == "material":
@@ -83,12 +40,14 @@ def _physics(scene, code):
         second = code == SECOND
         words = talus_law(scene.law, " slider midpoint" if second else " midpoint" * scene.midpoint, second)
         pull = " order 2" * second + (f" gravity {scene.gravity!r} vector 0 0 -1" if scene.gravity else "")
-        text += f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving nve/sphere/symplectic{pull}\n"
+        mover = "rigid/small/symplectic molecule" if scene.clumps else "nve/sphere/symplectic"
+        text += f"pair_style gran/penalty\npair_coeff * * {words}\nfix move moving {mover}{pull}\n"
         for n, (axis, place, sign) in enumerate(scene.planes):
             point, normal = ([place if d == axis else 0 for d in range(3)], [sign if d == axis else 0 for d in range(3)])
             text += f"fix p{n} all large/body plane {' '.join(map(str, point + normal))} contact {words}\n"
         return text
-    text += f"pair_style granular\npair_coeff * * {granular_law(scene.law)}\nfix move moving nve/sphere\n"
+    mover = "rigid/small molecule" if scene.clumps else "nve/sphere"
+    text += f"pair_style granular\npair_coeff * * {granular_law(scene.law)}\nfix move moving {mover}\n"
     if scene.gravity:
         text += f"fix gravity all gravity {scene.gravity!r} vector 0 0 -1\n"
     for n, (axis, place, sign) in enumerate(scene.planes):
@@ -101,16 +60,23 @@ def _head(scene, code):
     hold = "group fixed id " + " ".join(str(k + 1) for k in scene.fixed) + "\nfix hold fixed freeze\n" \
         "neigh_modify exclude group fixed fixed\n" if scene.fixed else ""
     moving = "group moving subtract all fixed\n" if scene.fixed else "group moving union all\n"
-    return (f"units {scene.units}\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\n"
-            f"boundary {scene.periodic}\nread_data data\nneighbor {scene.skin!r} bin\n"
-            "neigh_modify every 1 delay 0 check yes\n" + hold.split("neigh_modify")[0].split("fix hold")[0] + moving
+    return (f"units {scene.units}\natom_style sphere\natom_modify map array\nnewton off\n"
+            f"comm_modify vel yes{' cutoff 3.0' * bool(scene.clumps)}\n"
+            f"boundary {scene.periodic}\n" + _molecules(scene) + f"neighbor {scene.skin!r} bin\n"
+            f"neigh_modify every 1 delay 0 check yes{' exclude molecule/intra all' * bool(scene.clumps)}\n" + hold.split("neigh_modify")[0].split("fix hold")[0] + moving
             + _physics(scene, code) + (hold[hold.index("fix hold"):] if hold else ""))
+
+
+def _molecules(scene):
+    if not scene.clumps:
+        return "read_data data\n"
+    return "fix prop all property/atom mol ghost yes\nread_data data fix prop NULL Molecules\n"
 
 
 def write(scene, path):
     lammps.write_data(path, scene.box,
                       [(k + 1, 1, b.diameter, b.density, *b.x) for k, b in enumerate(scene.balls)],
-                      [(k + 1, *b.v, *b.w) for k, b in enumerate(scene.balls)])
+                      [(k + 1, *b.v, *b.w) for k, b in enumerate(scene.balls)], molecules=scene.clumps)
 
 
 def critical_step(bench, scene, folder):
@@ -129,7 +95,7 @@ def run(bench, scene, code, folder, dt):
     """Outcome of a scene with one code."""
     write(scene, f"{folder}/data")
     every = max(1, scene.steps // scene.frames)
-    script = (_head(scene, code) + f"thermo {max(1, scene.steps // 20)}\nthermo_modify norm no lost warn flush no\n"
+    script = (_head(scene, code) + f"thermo_style custom step atoms pe\nthermo {max(1, scene.steps // 20)}\nthermo_modify norm no lost warn flush no\n"
               f"timestep {dt!r}\ndump d all custom {every} frames.{code} {COLUMNS}\n"
               "dump_modify d format float %.17g sort id\n" + f"run {scene.steps}\n")
     result = lammps.run(folder, f"scene-{code}", script, code, check=False, timeout=bench.size(900, 60))
@@ -147,7 +113,7 @@ def synchronise(scene, frame, dt):
     """Velocities of Talus to the time of the positions, by half a kick; its forces are without gravity."""
     for row, tag in enumerate(frame["id"]):
         k = int(tag) - 1
-        if k in scene.fixed:
+        if k in scene.fixed or scene.clumps:      # of clumps half a kick is little at the end
             continue
         ball = scene.balls[k]
         inertia = 0.1 * ball.mass() * ball.diameter**2
@@ -162,7 +128,7 @@ def grains(scene):
     return verdict.Grains("hertz" if scene.hertz() else "hooke", scene.stiffness(),
                           [b.diameter / 2 for b in scene.balls],
                           [0.0 if k in scene.fixed else b.mass() for k, b in enumerate(scene.balls)],
-                          scene.gravity, scene.planes, period)
+                          scene.gravity, scene.planes, period, scene.clumps)
 
 
 # ---- the list ---------------------------------------------------------------------------------
@@ -254,4 +220,4 @@ def scenes(quick):
               impact("dt 6 critical, impact", elastic, fraction=6.0, steps=6)]
     unstable = pile(20000)
     unstable.name, unstable.fraction, unstable.creep = "dt 1.5 critical, pile", 1.5, False
-    return found + [unstable]
+    return found + [unstable] + extreme_sizes.scenes(quick) + extreme_clumps.scenes(quick)

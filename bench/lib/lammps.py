@@ -224,11 +224,11 @@ def read_frames(path):
     return frames
 
 
-def write_data(path, box, rows, velocities=None, types=1):
+def write_data(path, box, rows, velocities=None, types=1, molecules=()):
     """A data file for atom_style sphere that LAMMPS and LIGGGHTS read.
 
     box: ((xlo, xhi), (ylo, yhi), (zlo, zhi)); rows: (id, type, diameter, density, x, y, z);
-    velocities: (id, vx, vy, vz, wx, wy, wz) or None."""
+    velocities: (id, vx, vy, vz, wx, wy, wz) or None; molecules: numbers of them by ID from 1 on, for a fix property/atom."""
     with open(path + ".new", "w") as file:
         file.write(f"spheres\n\n{len(rows)} atoms\n{types} atom types\n\n")
         for axis, (low, high) in zip("xyz", box):
@@ -238,4 +238,7 @@ def write_data(path, box, rows, velocities=None, types=1):
         if velocities:
             file.write("\nVelocities\n\n")
             file.writelines("%d %.17g %.17g %.17g %.17g %.17g %.17g\n" % tuple(row) for row in velocities)
+        if molecules:
+            file.write("\nMolecules\n\n")
+            file.writelines(f"{k} {molecule}\n" for k, molecule in enumerate(molecules, 1))
     os.replace(path + ".new", path)

@@ -14,7 +14,8 @@ TOLD_BY = {"energy": ("time step", "overlap", "Lost"), "overlap": DEEP, "lost": 
 @dataclasses.dataclass
 class Grains:
     """What the energies need. normal: "hooke" or "hertz" with stiffness kn, radius by sphere;
-    floors: list of (axis, place, sign) of planes that push along sign; period: edge lengths or None."""
+    floors: list of (axis, place, sign) of planes that push along sign; period: edge lengths or None; clump: number of the clump by
+    sphere, whose spheres do not touch each other, or nothing."""
     normal: str
     kn: float
     radius: list
@@ -22,6 +23,7 @@ class Grains:
     gravity: float = 0.0
     floors: tuple = ()
     period: tuple = (None, None, None)
+    clump: tuple = ()
 
     def spring(self, overlap, radius):
         """Elastic energy of one contact with the effective radius."""
@@ -79,6 +81,8 @@ def _pairs(x, grains):
     wrapped = grains.period[2] is not None
     for n, i in enumerate(order):
         for j in order[n + 1:]:
+            if grains.clump and grains.clump[i] == grains.clump[j]:
+                continue
             if not wrapped and x[j][2] - x[i][2] > reach:
                 break
             square = 0.0
@@ -118,10 +122,36 @@ def energies(frame, grains):
     return (kinetic, elastic, height), max((overlap / r for overlap, _, r in touching), default=0.0)
 
 
+def said(result):
+    """Warnings and error of a lammps.Result that are about the scene."""
+    about = ("gran/penalty", "Lost", "large/body", "shape/gran")
+    return {"warnings": tuple(w for w in result.warnings() if any(word in w for word in about)), "error": result.error()}
+
+
+def judge_account(rows, result, count, driven=False):
+    """The same from what the run itself has printed: rows (step, particles, kinetic, potential, elastic, overlap over the
+    radius). driven: something outside does work, so that energies may rise."""
+    outcome = Outcome(**said(result))
+    for step, particles, *_, overlap in rows:
+        outcome.steps = max(outcome.steps, int(step))
+        outcome.lost = max(outcome.lost, count - int(particles))
+        outcome.overlap = max(outcome.overlap, overlap)
+    outcome.finite = all(math.isfinite(number) for row in rows for number in row)
+    whole = [row for row in rows if row[1] == count]
+    if driven or not whole or not outcome.finite:
+        return outcome
+    total = [sum(row[2:5]) for row in whole]
+    scale = max(max(row[2], row[4]) for row in whole)
+    if scale > 0.0:
+        tail = total[-max(1, len(total) // 10):]
+        outcome.growth, outcome.swing = (sum(tail) / len(tail) - total[0]) / scale, (max(total) - total[0]) / scale
+    outcome.kinetic = whole[-1][2]
+    return outcome
+
+
 def judge(frames, result, grains):
     """Outcome of a run from its frames [(step, columns)] and its lammps.Result."""
-    outcome = Outcome(warnings=tuple(w for w in result.warnings() if "gran/penalty" in w or "Lost" in w
-                                     or "large/body" in w), error=result.error())
+    outcome = Outcome(**said(result))
     total, scale, start, early = [], 0.0, None, None
     for step, frame in frames:
         outcome.steps = max(outcome.steps, step)

@@ -37,6 +37,7 @@ void ContactChunk::start_pairs(const ContactScene &scene, const HistoryStore &hi
   else
     history.release();
   touching = 0;
+  deepest = {DeepestContact::watched};
 }
 
 void ContactChunk::change_order(int order, const std::function<const ContactLaw &(int, int)> &law)
@@ -53,7 +54,10 @@ void ContactChunk::change_order(int order, const std::function<const ContactLaw 
 void ContactChunk::exchange_contacts(StateExchange &x)
 {
   x(touching);
-  if (x.restores()) renew(contacts, pairs.num_pairs() + lanes);
+  if (x.restores()) {
+    renew(contacts, pairs.num_pairs() + lanes);
+    deepest = {DeepestContact::watched};
+  }
   x.array(contacts.data(), touching);
 }
 
@@ -176,7 +180,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   else
     gather<friction, history_kept, false>(step, end);
   if (scene.history_records > 1) gather_further_histories(scene, end);
-  finish_geometry(end, friction);
+  finish_geometry(step.particles, end, friction);
   if (scene.with_twisting) gather_for_twisting(step, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
   run_kernels(step);

@@ -11,6 +11,7 @@
 
 #include "base/aligned_vector.h"
 #include "base/state_exchange.h"
+#include "contact/deepest_contact.h"
 #include "contact/deferred_forces.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
@@ -121,6 +122,9 @@ class ContactChunk {
     return scene.row_of(pairs.first[pair], pairs.second[pair]);
   }
 
+  /// The deepest contact since start_pairs(), if it is deeper than DeepestContact::watched; otherwise that.
+  const DeepestContact &deepest_since_start() const { return deepest; }
+
   /// What the last compute() has found of the work of contacts; those of first particles that other
   /// chunks may deal with at the same time are not in the lists of step.account yet.
   const EnergyByCause &work() const { return chunk_work; }
@@ -153,7 +157,8 @@ class ContactChunk {
   void gather_for_twisting(const Step &step, int end, bool resistance);
   void gather_further_histories(const ContactScene &scene, int end);
   void gather_temperatures(const double *temperature, int end);
-  void finish_geometry(int end, bool radii_known);
+  void finish_geometry(const ParticleRecords &particles, int end, bool radii_known);
+  void notice_deeper(const ParticleRecords &particles, int end);
   void run_kernels(const Step &step);
   void keep_history(const ContactScene &scene, int end);
   template <bool friction> void transpose_results(int end, const ContactScene &scene);
@@ -170,6 +175,7 @@ class ContactChunk {
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
   std::int64_t touching = 0;
+  DeepestContact deepest;
   struct LaterTally {
     int second, first;
     TalliedContact contact;

@@ -9,6 +9,7 @@
 #include "laws/intersection_radius.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace Talus {
 namespace {
@@ -111,11 +112,13 @@ void ContactChunk::gather_temperatures(const double *temperature, int end)
 }
 
 /* From separation and sum of radii to normal and overlap. Without omega records the lanes of the
-   inverse radius still hold the product of the radii. */
+   inverse radius still hold the product of the radii. The overlap over the effective radius, which is
+   at most the smaller one, tells whether some contact may be deeper than all before. */
 
-void ContactChunk::finish_geometry(int end, bool radii_known)
+void ContactChunk::finish_geometry(const ParticleRecords &particles, int end, bool radii_known)
 {
   const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
+  Vec8 deepest_here = zero;
   for (int k = 0; k < end; k += lanes) {
     const Vector3<Vec8> separation{load8(&batch.normal[0][k]), load8(&batch.normal[1][k]),
                                    load8(&batch.normal[2][k])};
@@ -128,9 +131,27 @@ void ContactChunk::finish_geometry(int end, bool radii_known)
     store(&batch.normal[0][k], normal.x);
     store(&batch.normal[1][k], normal.y);
     store(&batch.normal[2][k], normal.z);
-    store(&batch.overlap[k], select(apart, sum_of_radii - distance, zero));
+    const Vec8 overlap = sum_of_radii - distance;
+    store(&batch.overlap[k], select(apart, overlap, zero));
     if (!radii_known)
       store(&batch.inverse_radius[k], sum_of_radii / load8(&batch.inverse_radius[k]));
+    const Vec8 ratio = overlap * load8(&batch.inverse_radius[k]);
+    deepest_here = select(ratio > deepest_here, ratio, deepest_here);
+  }
+  if (any(deepest_here > deepest.overlap_ratio)) notice_deeper(particles, end);
+}
+
+void ContactChunk::notice_deeper(const ParticleRecords &particles, int end)
+{
+  const std::vector<int> &atom = pairs.order().atom_of_slot;
+  const int *state = pairs.state_of_first();
+  for (int k = 0; k < end; k++) {
+    const std::uint32_t pair = pair_of_lane[k];
+    const int j = pairs.second[pair];
+    const Record &a = particles.position[state[pair]], &b = particles.position[j];
+    const double distance = std::hypot(a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]);
+    const double ratio = (a.c[3] + b.c[3] - distance) / std::min(a.c[3], b.c[3]);
+    if (ratio > deepest.overlap_ratio) deepest = {ratio, atom[pairs.first[pair]], atom[j]};
   }
 }
 

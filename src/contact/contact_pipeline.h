@@ -30,13 +30,6 @@
 
 namespace Talus {
 
-/// Local indices of two particles, and their overlap over the smaller radius; 0 without contacts.
-struct DeepestContact {
-  double overlap_ratio = 0.0;
-  int i = 0, j = 0;
-  bool operator<(const DeepestContact &o) const { return overlap_ratio < o.overlap_ratio; }
-};
-
 class ContactPipeline {
  public:
   ContactPipeline() = default;
@@ -171,6 +164,9 @@ class ContactPipeline {
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
+  /// The same of all that have been computed since start_pairs(), if it is deeper than
+  /// DeepestContact::watched; otherwise that.
+  DeepestContact deepest_since_rebuild() const;
   /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without
   /// contacts.
   double smallest_contact_period() const;

@@ -145,6 +145,13 @@ DeepestContact ContactPipeline::deepest_contact() const
   });
 }
 
+DeepestContact ContactPipeline::deepest_since_rebuild() const
+{
+  DeepestContact deepest{DeepestContact::watched};
+  for (const ContactChunk &chunk : chunks) deepest = std::max(deepest, chunk.deepest_since_start());
+  return deepest;
+}
+
 double ContactPipeline::smallest_contact_period() const
 {
   // the largest of the inverse squares

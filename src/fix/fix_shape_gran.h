@@ -112,6 +112,8 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
                                 const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;
   Talus::DeepestContact deepest_contact() const override;
+  Talus::DeepestContact deepest_since_rebuild() const override { return pairs.deepest_since_set(); }
+  Talus::DeepestInBody deepest_in(const Talus::LargeBody &body) const override;
   double count_contacts() const override { return pairs.count_contacts(); }
   double count_candidates() const override { return pairs.count_candidates(); }
 

@@ -154,6 +154,13 @@ DeepestContact FixShapeGran::deepest_contact() const
   return deepest;
 }
 
+DeepestInBody FixShapeGran::deepest_in(const LargeBody &body) const
+{
+  const auto wall = walls.find(&body);
+  return wall == walls.end() || !wall->second.points ? DeepestInBody{}
+                                                     : wall->second.points->deepest();
+}
+
 /* For dump image: the type, which may choose the color, and the corners. LAMMPS lights the side
    from which these go round clockwise. Others are drawn along, for a picture has one fix. */
 

@@ -86,8 +86,9 @@ void LargeBodyMonitor::warn_overlap(const RunMonitor::Finding &found) const
     cure =
         "so deep it is pushed out on whatever side its center is: put particles where they are "
         "clear of the body, or use a smaller time step or a higher stiffness if they hit it fast";
-  warn(fmt::format("particle {:.0f} overlaps {} by {:.3g} of its radius at step {}; {}",
-                   found.details[0], place(found), found.value, update->ntimestep, cure));
+  warn(fmt::format("particle {:.0f} overlaps {} by {:.3g} of its radius at step {}{}; {}",
+                   found.details[0], place(found), found.value, update->ntimestep,
+                   begins ? "" : " or since the last rebuild", cure));
 }
 
 void LargeBodyMonitor::warn_move(const RunMonitor::Finding &found) const

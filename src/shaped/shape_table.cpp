@@ -4,6 +4,7 @@
 
 #include "packing/random_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +24,20 @@ ParticleShape::ParticleShape(std::shared_ptr<const Shape> particle_shape, double
     geometry(std::move(particle_shape)), particle_mass(density * geometry->volume()),
     free(rotation_of(*geometry, density)), held(*geometry)
 {
+  for (const Triangle &part : geometry->surface(3))
+    for (const Vector3<double> &p : part.corner)
+      half_width = {std::max(half_width.x, std::abs(p.x)), std::max(half_width.y, std::abs(p.y)),
+                    std::max(half_width.z, std::abs(p.z))};
+}
+
+double ParticleShape::fastest_by_turning(const Vector3<double> &omega) const
+{
+  double fastest = 0.0;
+  for (const double y : {-1.0, 1.0})
+    for (const double z : {-1.0, 1.0})    // opposite corners are as fast
+      fastest = std::max(fastest,
+                         length(cross(omega, {half_width.x, y * half_width.y, z * half_width.z})));
+  return fastest;
 }
 
 Eigen::Quaterniond ParticleShape::new_orientation(std::int64_t id) const

@@ -25,6 +25,9 @@ class ParticleShape {
   double mass() const { return particle_mass; }
   const FreeRotation &rotation() const { return free; }
   const FaceStiffness &faces() const { return held; }
+  /// Largest speed of a point of the box around it, in the frame of the shape, that turns with omega
+  /// (the same frame).
+  double fastest_by_turning(const Vector3<double> &omega) const;
   /// Of the shape, for a particle with its center of mass at x.
   Pose pose(const Vector3<double> &x, const Eigen::Quaterniond &orientation) const
   {
@@ -49,6 +52,7 @@ class ParticleShape {
   double particle_mass;
   FreeRotation free;
   FaceStiffness held;
+  Vector3<double> half_width{0.0, 0.0, 0.0};    ///< of the box around it
   Eigen::Quaterniond fixed = Eigen::Quaterniond::Identity();
   bool random = false;
   std::uint64_t seed = 0;

@@ -28,6 +28,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
     list.push_back({first,
                     second,
                     laws.row(of_first, of_second),
+                    std::min(radius_inside(view, first), radius_inside(view, second)),
                     {tag[first], tag[second]},
                     shapes.collision(of_first, of_second),
                     {}});
@@ -39,7 +40,7 @@ void ShapedPairs::set_pairs(const ShapedView &view, const std::vector<std::array
   chunks.clear();
   const int all = static_cast<int>(list.size());
   for (int begin = 0; begin < all; begin += pairs_of_chunk)
-    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all), {}, {}, {}, {}, {}});
+    chunks.push_back({begin, std::min(begin + pairs_of_chunk, all)});
   set_sides(view, tag);
 }
 
@@ -229,6 +230,12 @@ void ShapedPairs::find_contacts(const LawTable &laws, const Chunk &chunk, Scratc
   }
 }
 
+double ShapedPairs::radius_inside(const ShapedView &view, int i) const
+{
+  const ParticleShape *shape = shapes.of(view.type(i));
+  return shape ? shape->shape().inscribed_radius() : view.radius(i);
+}
+
 /* Points of a pair that touched before stand from `old` on: they are looked up by their feature. */
 
 void ShapedPairs::take_points(const ShapedView &view, const Step &step, Chunk &chunk, int p,
@@ -262,7 +269,16 @@ void ShapedPairs::take_points(const ShapedView &view, const Step &step, Chunk &c
       if (chunk.before[n].name == one.name) point.history = chunk.before[n].history;
     chunk.points.push_back(point);
     chunk.pair_of_point.push_back(p);
+    if (one.overlap > chunk.deepest.overlap_ratio * pair.size)
+      chunk.deepest = {one.overlap / pair.size, i, j};
   }
+}
+
+DeepestContact ShapedPairs::deepest_since_set() const
+{
+  DeepestContact deepest{DeepestContact::watched};
+  for (const Chunk &chunk : chunks) deepest = std::max(deepest, chunk.deepest);
+  return deepest;
 }
 
 ShapedPairs::CoreOverlap ShapedPairs::deepest_core_overlap() const

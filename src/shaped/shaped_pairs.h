@@ -15,6 +15,7 @@
 #define TALUS_SHAPED_SHAPED_PAIRS_H
 
 #include "base/state_exchange.h"
+#include "contact/deepest_contact.h"
 #include "history/contact_lists.h"
 #include "shaped/point_batch.h"
 #include "shaped/shape_table.h"
@@ -93,6 +94,9 @@ class ShapedPairs {
   };
   CoreOverlap deepest_core_overlap() const;
 
+  /// The deepest contact since set_pairs(), if it is deeper than DeepestContact::watched; otherwise that.
+  DeepestContact deepest_since_set() const;
+
   bool is_empty() const { return list.empty(); }
   /// Local indices of all particles that have pairs, ascending.
   /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
@@ -106,6 +110,7 @@ class ShapedPairs {
   struct Pair {
     int first, second;      ///< local indices
     int row;                ///< of the table of laws
+    double size;            ///< the smaller radius of the largest sphere inside
     std::int64_t tag[2];    ///< IDs
     Collisions::Collision collision;
     SeparatingDirection direction{};
@@ -121,9 +126,10 @@ class ShapedPairs {
   };
   struct Chunk {
     int begin, end;    ///< pairs
-    std::vector<PointContact> points, before;
-    std::vector<int> pair_of_point, pair_before;
-    CoreOverlap cores{};    ///< deepest since set_pairs()
+    std::vector<PointContact> points{}, before{};
+    std::vector<int> pair_of_point{}, pair_before{};
+    CoreOverlap cores{};                                ///< deepest since set_pairs()
+    DeepestContact deepest{DeepestContact::watched};    ///< the same
   };
   /// Of a thread, for one chunk after the other.
   struct Scratch {
@@ -136,6 +142,7 @@ class ShapedPairs {
   template <class Visit> void for_each_point_of_pair(Visit visit) const;
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
   void place_solids(const ShapedView &view, int threads);
+  double radius_inside(const ShapedView &view, int i) const;
   void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
                      Scratch &with);
   void find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with);

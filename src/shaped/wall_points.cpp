@@ -124,8 +124,18 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       if (frame.vertices) see_vertices(task, point);
       chunk.points.push_back(point);
       chunk.of_point.push_back(n);
+      const double ratio = one.overlap / particle.shape().inscribed_radius();
+      if (ratio > chunk.deepest.overlap_ratio) chunk.deepest = {ratio, i, point.part};
     }
   }
+}
+
+DeepestInBody WallPoints::deepest() const
+{
+  DeepestInBody most;
+  for (const Chunk &chunk : chunks)
+    if (chunk.deepest.overlap_ratio > most.overlap_ratio) most = chunk.deepest;
+  return most;
 }
 
 /* The surface moves at the point as a rigid body, and has turned the history with it: as for spheres, see

@@ -48,6 +48,8 @@ class WallPoints {
   using VisitContact = std::function<void(const ContactReport &)>;
   void for_each_contact(const BodyFrame &frame, const ShapedView &view, const LawTable &laws,
                         double dt, ContactData requested, const VisitContact &visit) const;
+  /// Since set_particles(), over the radius of the largest sphere inside of the particle.
+  DeepestInBody deepest() const;
   double memory_usage() const;
 
  private:
@@ -60,6 +62,7 @@ class WallPoints {
     ExactLoad exact;
     std::vector<TouchedPart> touched;
     std::vector<TouchedCorners> corners;
+    DeepestInBody deepest;
   };
   struct Task {
     const BodySurfaces &surfaces;

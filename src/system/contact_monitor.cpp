@@ -3,11 +3,13 @@
 #include "system/contact_monitor.h"
 
 #include "system/granular_system.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"
 #include "comm.h"
 #include "error.h"
+#include "shaped/shape_table.h"
 #include "update.h"
 
 #include <algorithm>
@@ -34,7 +36,7 @@ std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestConta
 
 RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) const
 {
-  if (!(deepest.overlap_ratio > 0.0)) return {};
+  if (!(deepest.overlap_ratio > DeepestContact::watched)) return {};
   const auto [low, high] = std::minmax(atom->tag[deepest.i], atom->tag[deepest.j]);
   return {deepest.overlap_ratio, {static_cast<double>(low), static_cast<double>(high)}};
 }
@@ -54,13 +56,29 @@ void ContactMonitor::warn_overlap(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
-                 "radius at step {}; {}",
+                 "radius at step {} or since the last rebuild; {}",
                  GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
                  worst.value, update->ntimestep, remedy_for(worst.value));
 }
 
+/* The fastest that a point of the surface may be, over the radius of the largest sphere inside. */
+
+double ContactMonitor::speed_over_radius(int i, const SystemShapes &shapes) const
+{
+  const int type = atom->type[i];
+  const auto length = [](const double *v) { return std::hypot(v[0], v[1], v[2]); };
+  if (!shapes.is_shaped(type)) return length(atom->v[i]) / atom->radius[i];
+  const ParticleShape &shape = *shapes.shape_of(type);
+  const double *const x = atom->x[i], *const w = atom->omega[i],
+                      *const q = shapes.orientations()[i];
+  const Pose pose = shape.pose({x[0], x[1], x[2]}, {q[0], q[1], q[2], q[3]});
+  const double turning = shape.fastest_by_turning(pose.direction_in_body({w[0], w[1], w[2]}));
+  return (length(atom->v[i]) + turning) / shapes.inner_radius_of(type);
+}
+
 RunMonitor::Finding ContactMonitor::largest_own_move() const
 {
+  const SystemShapes *const shapes = GranularSystem::of(lmp)->shapes();
   struct Move {
     double ratio2;    ///< squared speed over squared radius
     int atom;
@@ -70,7 +88,8 @@ RunMonitor::Finding ContactMonitor::largest_own_move() const
     Move farthest = {0.0, 0};
     for (int i = begin; i < end; i++) {
       const double *v = atom->v[i], r = atom->radius[i];
-      const double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
+      double ratio2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (r * r);
+      if (shapes) ratio2 = std::pow(speed_over_radius(i, *shapes), 2);
       if (ratio2 > farthest.ratio2) farthest = {ratio2, i};
     }
     found[t] = farthest;
@@ -78,14 +97,19 @@ RunMonitor::Finding ContactMonitor::largest_own_move() const
   const Move longest = *std::max_element(
       found.begin(), found.end(), [](const Move &a, const Move &b) { return a.ratio2 < b.ratio2; });
   if (!(longest.ratio2 > 0.0)) return {};
-  return {std::sqrt(longest.ratio2) * update->dt, {static_cast<double>(atom->tag[longest.atom])}};
+  const bool shaped = shapes && shapes->is_shaped(atom->type[longest.atom]);
+  return {std::sqrt(longest.ratio2) * update->dt,
+          {static_cast<double>(atom->tag[longest.atom]), shaped ? 1.0 : 0.0}};
 }
 
 void ContactMonitor::warn_move(const RunMonitor::Finding &worst) const
 {
   error->warning(FLERR,
-                 "Pair style {}: particle {:.0f} moves by {:.3g} of its radius in a time step at "
+                 "Pair style {}: particle {:.0f} moves by {:.3g} of its radius{} in a time step at "
                  "step {}; an impact is not resolved: reduce the time step",
                  GranularSystem::of(lmp)->style_name(), worst.details[0], worst.value,
+                 worst.details[1] != 0.0
+                     ? " (its corners by so much of that of the largest sphere inside)"
+                     : "",
                  update->ntimestep);
 }

@@ -71,7 +71,7 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
           contact_store->report_no_number(found);
           return true;
         }}});
-  monitors.add(pair, monitor.checks([this] { return run_contacts.deepest(); }));
+  monitors.add(pair, monitor.checks([this] { return run_contacts.deepest_since_rebuild(); }));
   monitors.add(pair, {time_step.check(pair_coeffs)});
   modify->add_fix(std::string(placeholder_id) + " all DUMMY");
   make_run_style_the_default(lmp);

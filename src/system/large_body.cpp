@@ -122,6 +122,7 @@ void LargeBody::list_particles()
                           [this](int type) -> const ContactLaw & { return specs[type].law; });
   order_of_history = system.integrators().order();
   keep_records(false);
+  seen_between = {};
 }
 
 /* nullptr: it is none, or its vertices do not move. */
@@ -215,8 +216,10 @@ void LargeBody::compute(bool advance, double *virial)
     account.sum = contacts.static_work();
   } else {
     if (contacts.is_stale(*frame, neighbor->skin)) {
-      seen_between.join(findings_now());
+      BodyFindings seen = findings_now();
+      seen.join(seen_between);
       list_particles();
+      seen_between = seen;
     }
     BodyStep step = step_of(advance);
     step.virial = virial;
@@ -252,7 +255,9 @@ void LargeBody::exchange_state(StateExchange &x)
 
 BodyFindings LargeBody::findings_now() const
 {
-  return contacts.find_worst(*body_shape, *frame, view(), comm->nthreads);
+  BodyFindings found = contacts.find_worst(*body_shape, *frame, view(), comm->nthreads);
+  if (system.shapes()) found.join(system.shapes()->deepest_in(*this));
+  return found;
 }
 
 bool LargeBody::accounts() const

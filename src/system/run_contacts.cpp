@@ -192,6 +192,13 @@ DeepestContact RunContacts::deepest() const
   return shapes ? std::max(spheres, shapes->deepest_contact()) : spheres;
 }
 
+DeepestContact RunContacts::deepest_since_rebuild() const
+{
+  const SystemShapes *shapes = system.shapes();
+  const DeepestContact spheres = system.pipeline().deepest_since_rebuild();
+  return shapes ? std::max(spheres, shapes->deepest_since_rebuild()) : spheres;
+}
+
 /* Between two runs histories are with the store. */
 
 std::optional<HistoryValues> RunContacts::history_of(int i, int j) const

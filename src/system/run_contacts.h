@@ -40,6 +40,9 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   double count_candidates() const;
   /// Of the pairs that touch on this rank.
   DeepestContact deepest() const;
+  /// The same of all that have touched since the last rebuild, if it is deeper than
+  /// DeepestContact::watched; otherwise that.
+  DeepestContact deepest_since_rebuild() const;
   /// History of the contact of local indices i and j, with the signs of i, in a run or between two;
   /// none if they do not touch.
   std::optional<HistoryValues> history_of(int i, int j) const;

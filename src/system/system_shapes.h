@@ -73,6 +73,9 @@ class SystemShapes : public SystemFix {
   virtual double count_candidates() const = 0;
   /// Of these the deepest, over the radius of the smaller of the largest spheres inside.
   virtual DeepestContact deepest_contact() const = 0;
+  /// Since the last rebuild, if deeper than DeepestContact::watched; otherwise that.
+  virtual DeepestContact deepest_since_rebuild() const = 0;
+  virtual DeepestInBody deepest_in(const LargeBody &body) const = 0;
 
  protected:
   ~SystemShapes() = default;

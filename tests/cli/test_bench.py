@@ -352,6 +352,23 @@ class Verdicts(unittest.TestCase):
     def test_lost(self):
         self.assertIn("1 lost", self.judge(lambda f: [column.pop() for column in f.values()]).faults())
 
+    def test_spheres_of_a_clump_do_not_touch_each_other(self):
+        two = verdict.Grains("hooke", 1e3, [0.5] * 3, [1.0] * 3, clump=(1, 1, 2))
+        x = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.4), (0.0, 0.0, 1.3)]
+        self.assertEqual([round(overlap, 12) for overlap, *_ in verdict.contacts(x, two)], [0.1])
+
+    def test_account_of_a_run(self):
+        """Rows that the run has printed: step, particles, kinetic, potential, elastic, overlap."""
+        quiet = types.SimpleNamespace(warnings=lambda: [], error=lambda: "")
+        rows = [(10.0 * k, 2.0, 5.0, 1.0, 0.0, 0.01) for k in range(20)]
+        self.assertEqual(verdict.judge_account(rows, quiet, 2).word(), "stable")
+        risen = [(*row[:2], row[2] + 0.01 * (row[0] > 150), *row[3:]) for row in rows]
+        self.assertEqual(verdict.judge_account(risen, quiet, 2).faults(), ["energy +2.0e-03"])
+        self.assertEqual(verdict.judge_account(risen, quiet, 2, driven=True).word(), "stable")
+        self.assertEqual(verdict.judge_account(rows, quiet, 3).faults(), ["1 lost"])
+        self.assertEqual(verdict.judge_account([*rows, (200.0, 2.0, 5.0, 1.0, 0.0, 0.3)], quiet, 2).faults(), ["overlap 0.30 r"])
+        self.assertEqual(verdict.judge_account([*rows, (200.0, 2.0, math.nan, 1.0, 0.0, 0.0)], quiet, 2).faults(), ["not a number"])
+
     def test_what_was_said(self):
         deep = lambda f: f.update(x=[-0.47, 0.47])
         self.assertEqual(self.judge(deep, ["WARNING: Pair style gran/penalty: particles 1 and 2 overlap by .12"]).word(), "warned")

@@ -108,12 +108,12 @@ class Poured(SceneCase):
         for name, words, corners in (("sharp rods 1:50", "box 0.02 0.02 1", corners_of(0.02, 0.02, 1)),
                                      ("rods 1:50", "box 0.016 0.016 0.996 rounded 0.002", corners_of(*core))):
             with self.subTest(name):
-                self.pour(name, f"type 1 {words} density 2500 orient random 4", 0.02, 1.1, 1.6e7, 45000, 2.5e-5, [corners])
+                self.pour(name, f"type 1 {words} density 2500 orient random 4", 0.02, 1.1, 3.2e7, 112500, 1e-5, [corners], damping=800)
 
     def test_plates(self):
         for name, words in (("sharp plates", "box 1 1 0.02"), ("plates", "box 0.99 0.99 0.01 rounded 0.005")):
             with self.subTest(name):
-                self.pour(name, f"type 1 {words} density 50 orient random 4", 0.02, 1.5, 1.6e7, 45000, 2.5e-5,
+                self.pour(name, f"type 1 {words} density 50 orient random 4", 0.02, 1.5, 2.4e7, 60000, 2e-5,
                           [corners_of(0.99, 0.99, 0.01)])
 
     def test_many_corners(self):
@@ -127,7 +127,7 @@ class Poured(SceneCase):
     def test_size_ratio(self):
         small = corners_of(0.1, 0.1, 0.1)
         self.pour("size ratio 1:30", "type 1 box 2.9 2.9 2.9 rounded 0.05 density 1 orient random 4 "
-                  "type 2 box 0.09 0.09 0.09 rounded 0.005 density 1000 orient random 5", 0.1, 5.5, 1e6, 20000, 7e-5,
+                  "type 2 box 0.09 0.09 0.09 rounded 0.005 density 1000 orient random 5", 0.1, 5.5, 6e6, 50000, 2.8e-5,
                   [corners_of(2.9, 2.9, 2.9), small], across=2, layers=2, types=[1, 2])
 
     def test_cores_that_overlap_are_warned_of(self):

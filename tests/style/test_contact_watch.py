@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Warnings about deep overlaps and large moves: where they are due, once per run, and not elsewhere."""
 
+import math
 import os
 import re
 import sys
@@ -93,6 +94,46 @@ class Warned(SceneCase):
         spheres = [Sphere((-0.6, 0, 0), (20, 0, 0), id=5), Sphere((0.6, 0, 0), (-20, 0, 0), id=6)]
         found = self.found(spheres, OVERLAP, dt=1e-3, steps=60)
         self.assertEqual(found[0][:2], ("5", "6"))
+
+    def test_impact_between_two_rebuilds(self):
+        """It is over before a particle has moved by half the skin: noticed in the step in which it is deepest."""
+        spheres = [Sphere((-0.501, 0, 0), (2.4, 0, 0), id=5), Sphere((0.501, 0, 0), (-2.4, 0, 0), id=6)]
+        more = "neighbor 1.0 bin\ncompute deep all penalty/stats\nfix deep all print 1 '$(c_deep[3])' file deep screen no"
+        for np in 1, 2:
+            (low, high, ratio), *others = self.found(spheres, OVERLAP, dt=1e-3, steps=700, more=more, np=np)
+            self.assertEqual((low, high, others), ("5", "6", []))
+            self.assertAlmostEqual(float(ratio), self.deepest_of_steps(), delta=5.01e-4, msg="it has three digits")
+
+    def deepest_of_steps(self):
+        with open(self.path("deep")) as file:
+            return max(float(line) for line in file if not line.startswith("#"))
+
+    def test_impact_on_a_body_between_two_rebuilds(self):
+        spheres = [Sphere((0, 0, 0.501), (0, 0, -3.0), id=5), Sphere((0, 4, 4), id=6)]
+        more = "neighbor 1.0 bin\nfix floor all large/body plane 0 0 0 0 0 1 contact hooke 1000.0 0.0"
+        for np in 1, 2:
+            (name, tag, ratio), *others = self.found(spheres, BODY_OVERLAP, dt=1e-3, steps=700, more=more, np=np)
+            self.assertEqual((name, tag, others), ("floor", "5", []))
+            depth = 3.0 * math.sqrt(math.pi / 6 / 1000.0)
+            self.assertAlmostEqual(float(ratio), depth / 0.5, delta=0.01)
+
+    def test_shapes(self):
+        """Of the largest sphere inside of a plate, which is much smaller than the one around it: of two, and of one with a body. And of
+        one that turns so fast that its corners are not followed."""
+        plates = "fix plates all shape/gran type 1 box 1 1 0.1 density 1.0\nunfix move\n"
+        floor = "fix floor all large/body plane 0 0 0 0 0 1 contact hooke 1000.0 0.0\n"
+        low, high = Sphere((0, 0, 1.0), id=3), Sphere((0.2, 0, 1.101), (0, 0, -2.0), id=8)
+        for np in 1, 2:
+            found = self.found([low, high], OVERLAP, dt=1e-3, steps=100, more=plates, np=np)
+            self.assertEqual([one[:2] for one in found], [("3", "8")])
+            fall = [Sphere((0, 0, 0.051), (0, 0, -2.0), id=5), Sphere((0, 3, 3), id=9)]
+            found = self.found(fall, BODY_OVERLAP, dt=1e-3, steps=100, more=plates + floor, np=np)
+            self.assertEqual([one[:2] for one in found], [("floor", "5")])
+            turning = [Sphere((0, 0, 1.0), omega=(0, 0, 10.0), id=4), Sphere((0, 3, 3), id=9)]
+            turned = r"WARNING: Pair style gran/penalty: particle 4 moves by (\S+) of its radius \(its corners by so much of that of the " \
+                r"largest sphere inside\) in a time step"
+            ratio, *_ = self.found(turning, turned, dt=1e-3, steps=1, more=plates, np=np)
+            self.assertAlmostEqual(float(ratio), 1e-3 * 10.0 * math.sqrt(0.5) / 0.05, delta=1e-3)
 
     def test_large_move(self):
         spheres = self.pair(0.0) + [Sphere((2, 2, 2), (0, 0, -30), id=5), Sphere((3, -3, 0), (30, 0, 0), diameter=2, id=6)]

@@ -300,6 +300,7 @@ void BodyBatch::flush()
     filled = 0;
     return;
   }
+  if (!task->wall) notice_deeper();
   run_laws(batch, law_index, 0, end, {task->laws, task->dt, task->advance, task->account});
   if (task->with_history && task->advance) keep_histories();
   if (task->account) account();
@@ -314,6 +315,24 @@ void BodyBatch::flush()
   if (task->virial) add_virials();
   touching += filled;
   filled = 0;
+}
+
+/* Contacts of eight at a time are compared with the deepest one so far. */
+
+void BodyBatch::notice_deeper()
+{
+  const auto is_deeper = [this](int k) {
+    return load8(&batch.overlap[k]) > deepest_so_far.overlap_ratio * load8(&radius[k]);
+  };
+  bool any_deeper = false;
+  for (int k = 0; k < end && !any_deeper; k += lanes) any_deeper = any(is_deeper(k));
+  if (!any_deeper) return;
+  for (int lane = 0; lane < filled; lane++) {
+    const double ratio = batch.overlap[lane] / radius[lane];
+    if (!(ratio > deepest_so_far.overlap_ratio)) continue;
+    const ContactReport one = geometry_of(lane);
+    deepest_so_far = {ratio, one.i, one.part};
+  }
 }
 
 void BodyBatch::account()

@@ -20,6 +20,7 @@
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "body/shape/moving_vertices.h"
+#include "contact/deepest_contact.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
 #include "material/law_table.h"
@@ -106,6 +107,11 @@ class BodyBatch {
   std::vector<TouchedCorners> corners;    ///< the same
   EnergyByCause work;                     ///< if asked for
 
+  /// The deepest contact since forget_deepest(), if it is deeper than DeepestContact::watched; not of
+  /// walls of LAMMPS.
+  const DeepestInBody &deepest() const { return deepest_so_far; }
+  void forget_deepest() { deepest_so_far = {}; }
+
  private:
   using Lanes = double[3][ContactBatch::width];
 
@@ -125,6 +131,7 @@ class BodyBatch {
   void append(std::size_t candidate, std::size_t slot, const Vector3<double> &x, double r,
               const SurfaceContact &contact, const Vector3<double> &normal_before);
   void flush();
+  void notice_deeper();
   void account();
   ContactReport geometry_of(int lane) const;
   void report();
@@ -200,6 +207,7 @@ class BodyBatch {
 
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
+  DeepestInBody deepest_so_far;
   // in space, in the frame of a body that moves, and with radii as far as contacts last
   EightSpheres spheres{}, seen{}, widened{};
   EightContacts contacts{};

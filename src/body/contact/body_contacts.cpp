@@ -17,6 +17,12 @@ void BodyFindings::join(const BodyFindings &other)
     if ((other.*finding).value > (this->*finding).value) this->*finding = other.*finding;
 }
 
+void BodyFindings::join(const DeepestInBody &deepest)
+{
+  if (deepest.overlap_ratio > std::max(overlap.value, DeepestContact::watched))
+    overlap = {deepest.overlap_ratio, deepest.particle, deepest.part};
+}
+
 void BodyContacts::set_laws(const LawTable &table)
 {
   laws = table;
@@ -45,6 +51,7 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin, int threads)
 {
   index.clear();
+  for (auto &batch : batches) batch->forget_deepest();
   candidates.list(shape, frame, view, mask, group, skin,
                   largest_pulloff_distance(view, mask, group), threads);
   if (with_history) history.follow(candidates.atoms(), candidates.room());
@@ -223,6 +230,7 @@ BodyFindings BodyContacts::find_worst(const LargeBodyShape &shape, const BodyFra
   });
   BodyFindings most;
   for (const BodyFindings &findings : found) most.join(findings);
+  for (const auto &batch : batches) most.join(batch->deepest());
   return most;
 }
 

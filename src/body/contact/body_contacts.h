@@ -41,14 +41,16 @@ struct BodyFindings {
     int particle = 0;    ///< local index
     int part = 0;        ///< of the body
   };
-  Worst overlap;    ///< over radius
-  Worst speed;      ///< past the body, over radius
+  Worst
+      overlap;    ///< over radius (of shapes, that of the largest sphere inside), since particles were listed
+  Worst speed;    ///< past the body, over radius
   Worst
       passed;    ///< 1: the center went through a part since particles were listed; 2: from a side
                  ///< that does not act
   Worst idle;    ///< 1: reaches a part from the side that does not act
 
   void join(const BodyFindings &other);
+  void join(const DeepestInBody &deepest);
 };
 
 class BodyContacts {
