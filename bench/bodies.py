@@ -11,6 +11,8 @@ import lammps
 import machine
 import paired
 import plot
+import problems
+import turned_mesh
 import vessels
 from lammps import LIGGGHTS, TALUS
 
@@ -130,6 +132,24 @@ def against_liggghts(bench):
                          ratio=ratio.median)
     if ratio.median < 4:
         bench.section.headline(f"bodies: LIGGGHTS' mesh walls take {ratio.median:.1f} times as long, less than the 4 aimed at.")
+
+
+def turning_drum(bench):
+    """The drum of scripts/validate drum, in which grains have just come to rest, as a mesh."""
+    size = bench.size(1.0, 0.25)
+    folder, settled = problems.run(bench, "drum", "drum", {"scale": size, "spin": 0.0, "watch": 1e-3, "states": 1}, paired.one_core())
+    bench.section.heading("A drum that is a mesh")
+    rows, grains = [], settled.loops()[-1].atoms
+    for ranks in (1, 2):
+        found = turned_mesh.compare(folder, os.path.join(folder, "settled.txt"), 0.042, 0.01 * size, 45, bench.rounds, ranks)
+        ratio = paired.ratio(found[LIGGGHTS], found[TALUS])
+        rows.append([ranks, found[LIGGGHTS].median, found[TALUS].median, ratio])
+        bench.section.record(part="drum", triangles=4 * turned_mesh.SEGMENTS, ranks=ranks, liggghts_ns=found[LIGGGHTS].median,
+                             ours_ns=found[TALUS].median, ratio=ratio.median)
+    bench.section.table(["ranks", "LIGGGHTS, ns per particle and step", "Talus, ns per particle and step", "ratio, median (range)"], rows)
+    bench.section.text(f"""The drum of [the measured flow](../doc/validation/drum.md), {grains} grains and a mesh of {4 * turned_mesh.SEGMENTS}
+triangles, hertz/material with history, `rolling cdt` in both codes, 45 turns per minute: {turned_mesh.STEPS} steps after
+{turned_mesh.WARM}, lists rebuilt when particles have moved.""")
 
 
 # ---- memory -----------------------------------------------------------------------------------
@@ -333,12 +353,12 @@ def draw_errors(plt, rows, names, what):
     axes.legend()
 
 
-PARTS = {"cost": cost, "far": far, "liggghts": against_liggghts, "memory": memory, "vessel": vessel,
+PARTS = {"cost": cost, "far": far, "liggghts": against_liggghts, "drum": turning_drum, "memory": memory, "vessel": vessel,
          "rotation": free_rotation, "coupling": coupling}
 
 
 def measure(bench):
     for name, part in PARTS.items():
-        if bench.wants(name) and (name != "liggghts" or machine.LIGGGHTS):
+        if bench.wants(name) and (name not in ("liggghts", "drum") or machine.LIGGGHTS):
             bench.note(name)
             part(bench)

@@ -68,11 +68,12 @@ def script(code, rpm):
     return head + (TALUS_DRUM if ours else LIGGGHTS_DRUM).format(**law) + RUN
 
 
-def compare(folder, settled, radius, half, rpm, rounds):
-    """{code: Series of ns per grain and step} from the file of in.drum, on one core."""
+def compare(folder, settled, radius, half, rpm, rounds, ranks=1):
+    """{code: Series of ns per grain and step} from the file of in.drum, on one core or on several ranks."""
     _, frame = lammps.read_frames(settled)[-1]
     rows = [(int(k), 1, d, DENSITY, x, y, z) for k, x, y, z, d in zip(*(frame[name] for name in ("id", "x", "y", "z", "diameter")))]
     lammps.write_data(os.path.join(folder, "grains.data"), ((-0.045, 0.045), (-half - 0.002, half + 0.002), (-0.045, 0.045)), rows)
     write_drum(os.path.join(folder, "drum.stl"), radius, half)
-    return paired.measure({code: lambda c=code: lammps.run(folder, f"mesh-{c}", script(c, rpm), c, cores=paired.one_core())
+    cores = paired.one_core() if ranks == 1 else None
+    return paired.measure({code: lambda c=code: lammps.run(folder, f"mesh-{c}", script(c, rpm), c, cores=cores, ranks=ranks)
                            .loops()[-1].nanoseconds() for code in (TALUS, LIGGGHTS)}, rounds)
