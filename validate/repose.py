@@ -25,8 +25,7 @@ SEEDS = (1, 2, 3)
 RADIUS = 10.0
 LIFT = 0.15                    # speed of the pipe over sqrt(g d)
 FIT = 0.2, 0.85                # of the radius: the peak is round, and grains at the rim fall off
-# degrees: friction angles of validate/triaxial.py at the critical state and at the peak, with a degree to spare
-ANGLES = 18.4, 26.7
+CRITICAL, PEAK, SPARE = 19.4, 25.7, 1.0     # degrees: friction angles of validate/triaxial.py, and what the bounds leave
 SAME = 1.5                     # degrees
 CREEP = """ `cdt` is shown and
 not compared: it has no spring that holds a grain at rest, some still move at the end, and the steepest heap is flatter than that of
@@ -99,7 +98,7 @@ def summary(heaps, name):
 
 def compare(bench, heaps):
     by_sds = [summary(heaps, name) for name in heaps if name[0] == "sds"]
-    low, high = bench.size(ANGLES, (15.0, 35.0))
+    low, high = bench.size((CRITICAL - SPARE, PEAK + SPARE), (15.0, 35.0))
     bench.section.result("angle without rolling resistance", by_sds[0][0], low, high, "degrees", scatter=by_sds[0][1])
     bench.section.result("least rise of the angle from one coefficient to the next", min(b[0] - a[0] for a, b in zip(by_sds, by_sds[1:])),
                          0.0, 20.0, "degrees")
@@ -129,8 +128,9 @@ the upper side of the heap between {FIT[0]} and {FIT[1]} of the radius, by least
 (deviations are those of one heap). Rolling: `sds` with the tangential stiffness 2/7 kn and .3 of critical damping, and `cdt ... capped`;
 both limit the torque to mu_r F_n R_1 R_2/(R_1 + R_2). The kinetic energy is that per grain {bench.size(60, 30)} times sqrt(d/g) after
 the pipe is off, the largest of the packings (a grain that is falling beside the plate counts). Fourfold stiffness is a quarter of the
-density as well: what counts is their ratio. Friction angles of spheres with that friction are 19.4
-degrees at the critical state and 25.7 at the peak; the bounds leave a degree to spare. A change of less than {report.number(SAME)}
+density as well: what counts is their ratio. Friction angles of spheres with that friction are {CRITICAL} degrees at the
+critical state and {PEAK} at the peak, from which the slope without rolling resistance is {summary(heaps, ("sds", 0.0))[0] - PEAK:+.1f}
+degrees away; the bounds leave {SPARE:.0f} degree to spare. A change of less than {report.number(SAME)}
 degrees is called none.{cdt} Input script: `validate/in.repose`.""")
     bench.section.plot("", "Angle of repose over the coefficient of rolling resistance, means of packings with their standard deviation "
                        "(left), and mean height of the heaps over the distance from the axis (right)", lambda plt: draw(plt, heaps))
