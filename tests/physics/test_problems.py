@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=600
-"""Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear. Those that take longer are in test_problems_long."""
+"""Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap.
+Those that take longer are in test_problems_long."""
 
 import os
 import sys
@@ -26,6 +27,12 @@ class Problems(unittest.TestCase):
 
     def test_shear(self):
         run_small(self, "shear")
+
+    def test_triaxial(self):
+        run_small(self, "triaxial")
+
+    def test_repose(self):
+        run_small(self, "repose")
 
 
 if __name__ == "__main__":
