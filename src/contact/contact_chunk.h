@@ -11,11 +11,11 @@
 
 #include "base/aligned_vector.h"
 #include "base/state_exchange.h"
-#include "contact/deepest_contact.h"
 #include "contact/deferred_forces.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
+#include "laws/deepest_contact.h"
 #include "material/law_table.h"
 #include "neighbors/pair_list.h"
 #include "particles/particle_records.h"

@@ -15,8 +15,8 @@
 #define TALUS_SHAPED_SHAPED_PAIRS_H
 
 #include "base/state_exchange.h"
-#include "contact/deepest_contact.h"
 #include "history/contact_lists.h"
+#include "laws/deepest_contact.h"
 #include "shaped/point_batch.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"

@@ -20,9 +20,9 @@
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "body/shape/moving_vertices.h"
-#include "contact/deepest_contact.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
+#include "laws/deepest_contact.h"
 #include "material/law_table.h"
 #include "particles/particle_state.h"
 

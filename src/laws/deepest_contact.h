@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_CONTACT_DEEPEST_CONTACT_H
-#define TALUS_CONTACT_DEEPEST_CONTACT_H
+#ifndef TALUS_LAWS_DEEPEST_CONTACT_H
+#define TALUS_LAWS_DEEPEST_CONTACT_H
 
 namespace Talus {
 
