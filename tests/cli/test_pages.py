@@ -10,7 +10,7 @@ import unittest
 ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 PAGES = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "doc", "*.md")))]
 PROBLEMS = sorted(glob.glob(os.path.join(ROOT, "doc", "validation", "*.md")))
-LONGEST, LONGEST_COMMAND = 1700, 2100      # words of a page, of one on LAMMPS' template for commands
+LONGEST = 1500      # words of a page
 
 
 def read(path):
@@ -49,9 +49,7 @@ class Pages(unittest.TestCase):
 
     def test_no_page_is_long(self):
         for page in PAGES[1:]:
-            text = read(page)
-            limit = LONGEST_COMMAND if "\n## Syntax\n" in text else LONGEST
-            self.assertLessEqual(len(text.split()), limit, f"divide {os.path.relpath(page, ROOT)}")
+            self.assertLessEqual(len(read(page).split()), LONGEST, f"divide {os.path.relpath(page, ROOT)}")
 
     def test_first_page(self):
         text = read(PAGES[0])
