@@ -248,6 +248,7 @@ void LargeBody::exchange_state(StateExchange &x)
   contacts.history.exchange_state(x);
   if (!x.restores()) return;
   contacts.history.grow(atom->nmax);
+  contacts.forget_deepest();
   seen_between = {};
 }
 

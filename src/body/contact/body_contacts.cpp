@@ -51,7 +51,7 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
                                    double skin, int threads)
 {
   index.clear();
-  for (auto &batch : batches) batch->forget_deepest();
+  forget_deepest();
   candidates.list(shape, frame, view, mask, group, skin,
                   largest_pulloff_distance(view, mask, group), threads);
   if (with_history) history.follow(candidates.atoms(), candidates.room());
@@ -270,6 +270,11 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
     most.join(of_particle);
   }
   return most;
+}
+
+void BodyContacts::forget_deepest()
+{
+  for (auto &batch : batches) batch->forget_deepest();
 }
 
 double BodyContacts::memory_usage() const

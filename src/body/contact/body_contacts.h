@@ -115,6 +115,8 @@ class BodyContacts {
   double reach() const { return candidates.reach(); }
 
   bool keeps_history() const { return with_history; }
+  /// Local indices are others: what was noticed since particles were listed has none.
+  void forget_deepest();
   double memory_usage() const;
 
   /// By particle (local index), in scenes whose laws keep history. The owner says what it keeps,
