@@ -69,12 +69,15 @@ def liggghts_version():
     return version.strip() or "?"
 
 
+SOURCES = ("src", "cmake", "CMakeLists.txt")
+
+
 def commit():
-    """The commit, with a mark if sources differ from it; the report itself does not count."""
-    sha = _output("git", "-C", ROOT, "rev-parse", "--short", "HEAD").strip()
+    """The commit that sources are of, which is the last that changed them, with a mark if they differ from it."""
+    sha = _output("git", "-C", ROOT, "log", "-1", "--format=%h", "--", *SOURCES).strip()
     if not sha:
         return "no git"
-    changed = _output("git", "-C", ROOT, "status", "--porcelain", "--", "src", "cmake", "CMakeLists.txt").strip()
+    changed = _output("git", "-C", ROOT, "status", "--porcelain", "--", *SOURCES).strip()
     return sha + (" with changes" if changed else "")
 
 

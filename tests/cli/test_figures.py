@@ -8,26 +8,94 @@ import unittest
 
 ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 
-# beginning of a row of README's first table: rows of the report that its numbers come from
-README_ROWS = {
-    "a bed of 50 000 spheres, gran/hertz/history": [("dropin", "bed")],
-    "the same with pair granular": [("dropin", "bed.tsuji")],
-    "30 000 settled spheres, sizes 1:10": [("sizes", "1:10", "30000", "walls", "settled")],
-    "the same, falling in a periodic box": [("sizes", "1:10", "30000", "periodic", "falling")],
-    "`in.granregion.mixer`": [("dropin", "granregion.mixer")],
-    "`in.granregion.funnel`": [("dropin", "granregion.funnel")],
-    "`in.pour.flatwall`, `in.pour`": [("dropin", "pour.flatwall"), ("dropin", "pour")],
-    "`in.chute` of LAMMPS": [("dropin", "chute.long")],
-    "a gas of 27 000 spheres": [("dropin", "gas.0.02"), ("dropin", "gas.0.1"), ("dropin", "gas.0.3")],
-    "`in.granregion.box`": [("dropin", "granregion.box"), ("dropin", "restitution")],
-}
-COLUMNS = {"dropin": ("ratio, median (range)", "ratio on 2 ranks"), "sizes": ("times LAMMPS, one rank", "two ranks")}
+MEDIAN = "ratio, median (range)"
+CLUMPS, CONVEX, ROUND = "Clumps of three spheres", "Convex particles", "Superellipsoids"
+STEP = "ns per body and step"
 
-# words of doc/figures.md before a number, case of dropin
-FIGURES = [("five planes", "bed"), ("with pair granular", "bed.tsuji"), (r"\(jkr", "bed.jkr"), ("`in.granregion.mixer`", "granregion.mixer"),
-           ("`.funnel`", "granregion.funnel"), ("`.box`", "granregion.box"), ("`in.pour.flatwall`", "pour.flatwall"), ("`in.pour`", "pour"),
-           ("`in.pour.heat`", "pour.heat"), ("`in.chute` with 3000 steps", "chute.long"), ("`in.pour.drum`", "pour.drum"),
-           ("`in.pour.2d`", "pour.2d")]
+
+def script(case):
+    """One core and two ranks of a script with -sf talus."""
+    return [("dropin", None, (case,), column) for column in (MEDIAN, "ratio on 2 ranks")]
+
+
+def sizes(*key):
+    return [("sizes", None, key, column) for column in ("times LAMMPS, one rank", "two ranks")]
+
+
+# beginning of a row of README's first table: cells of the report that its numbers come from, (one core, two ranks) each
+README_ROWS = {
+    "a bed of 50 000 spheres, gran/hertz/history": [script("bed")],
+    "the same with pair granular": [script("bed.tsuji")],
+    "30 000 settled spheres, sizes 1:10": [sizes("1:10", "30000", "walls", "settled")],
+    "the same, falling in a periodic box": [sizes("1:10", "30000", "periodic", "falling")],
+    "`in.granregion.mixer`": [script("granregion.mixer")],
+    "`in.granregion.funnel`": [script("granregion.funnel")],
+    "29 185 grains in a turning drum that is a mesh": [[("bodies", "A drum that is a mesh", (ranks,), MEDIAN) for ranks in "12"]],
+    "`in.pour.flatwall`, `in.pour`": [script("pour.flatwall"), script("pour")],
+    "`in.chute` of LAMMPS": [script("chute.long")],
+    "a gas of 27 000 spheres": [script("gas.0.02"), script("gas.0.1"), script("gas.0.3")],
+    "`in.granregion.box`": [script("granregion.box"), script("restitution")],
+}
+
+
+def single(case):
+    return [("single", None, (case,), column) for column in ("other, ns", "Talus, ns", MEDIAN)]
+
+
+def clumps(law):
+    stock, ours = (law, "clumps, fix rigid/small of LAMMPS"), (law, "clumps, rigid/small/talus")
+    return [("shapes", CLUMPS, stock, STEP), ("shapes", CLUMPS, ours, STEP), ("shapes", CLUMPS, ours, "rigid/small of LAMMPS over it")]
+
+
+def superellipsoids(kind):
+    return [("shapes", ROUND, (kind,), column) for column in ("pair granular/superellipsoid, ns", STEP, "over it")]
+
+
+# rows of the table of doc/figures.md: beginning of the bed and of the other code, cells of its time, that of Talus, ratio
+FIGURES_ROWS = [
+    ("50 000 spheres", "stock `gran/hertz/history`", single("bed")),
+    ("50 000 spheres, Talus with `run_style verlet/stock`", "the same", single("verlet")),
+    ("400 000 spheres", "the same", single("bed400k")),
+    ("1 236 372 spheres", "the same", single("bed1236k")),
+    ("50 000 spheres", "stock `pair granular`", single("granular")),
+    ("50 000 spheres", "LIGGGHTS", single("liggghts")),
+    ("`in.chute` of LAMMPS", "stock `gran/hooke/history`", single("chute")),
+    ("50 000 spheres, 2 threads", "stock with `-sf omp`", single("omp")),
+    ("768 cubes", "stock `body/rounded/polyhedron`",
+     [("shapes", CONVEX, ("cubes",), column) for column in ("body/rounded/polyhedron, ns", STEP, "ratio")]),
+    ("768 ellipsoids", "`pair granular/superellipsoid`", superellipsoids("ellipsoids")),
+    ("768 superellipsoids", "the same", superellipsoids("superellipsoids")),
+    ("2500 clumps", "stock `fix rigid/small` with pair granular", clumps("granular")),
+    ("2500 clumps", "stock `fix rigid/small` with gran/hertz/history", clumps("gran/hertz/history")),
+]
+
+# sentences: file, words with a group for each number, cells of the report
+NUMBER, RANGE = r"([\d.]*\d)", r"([\d.]*\d) \(([\d.]*\d) to ([\d.]*\d)\)"
+SENTENCES = [
+    ("README.md", f"own styles is {NUMBER} times as fast", single("bed")[2:]),
+    ("README.md", f"{NUMBER} times as fast as with LIGGGHTS", single("liggghts")[2:]),
+    ("README.md", f"one of 400 000 spheres is {NUMBER} times", single("bed400k")[2:]),
+    ("README.md", f"a bed of cubes is {NUMBER} times", [("shapes", CONVEX, ("cubes",), "ratio")]),
+    ("README.md", f"one of ellipsoids {NUMBER} times", superellipsoids("ellipsoids")[2:]),
+    ("doc/figures.md", f"two ranks reach {RANGE}", single("ranks")[2:]),
+    ("doc/figures.md", f"independent runs, {RANGE} with overlap", single("overlapped")[2:]),
+    ("doc/figures.md", f"two threads {RANGE}", single("threads")[2:]),
+    ("doc/figures.md", f"five planes {NUMBER}", script("bed")[:1]),
+    ("doc/figures.md", f"five planes [^,]*, with pair granular {NUMBER}", script("bed.tsuji")[:1]),
+    ("doc/figures.md", rf"\(jkr {NUMBER}", script("bed.jkr")[:1]),
+    ("doc/figures.md", f"`in.granregion.mixer` {NUMBER}", script("granregion.mixer")[:1]),
+    ("doc/figures.md", f"`.funnel` {NUMBER}", script("granregion.funnel")[:1]),
+    ("doc/figures.md", f"`.box` {NUMBER}", script("granregion.box")[:1]),
+    ("doc/figures.md", f"`in.pour.flatwall` {NUMBER}", script("pour.flatwall")[:1]),
+    ("doc/figures.md", f"`in.pour` {NUMBER}", script("pour")[:1]),
+    ("doc/figures.md", f"`in.pour.heat` {NUMBER}", script("pour.heat")[:1]),
+    ("doc/figures.md", f"`in.chute` with 3000 steps {NUMBER}", script("chute.long")[:1]),
+    ("doc/figures.md", f"`in.pour.drum` {NUMBER}", script("pour.drum")[:1]),
+    ("doc/figures.md", f"`in.pour.2d` {NUMBER}", script("pour.2d")[:1]),
+    ("doc/figures.md", f"a gas in a periodic box {NUMBER}, {NUMBER} and {NUMBER}",
+     [script(f"gas.{fraction}")[0] for fraction in ("0.02", "0.1", "0.3")]),
+    ("doc/figures.md", f"On two ranks the bed has {NUMBER}", script("bed")[1:]),
+]
 
 
 def read(*path):
@@ -45,11 +113,20 @@ def section(name):
     return re.search(rf"<!-- begin {name} -->.*?<!-- end {name} -->", read("bench", "REPORT.md"), re.S)[0]
 
 
-def reported(name, *key):
-    """(one core, two ranks): medians."""
-    head, *rows = table(section(name))
-    row = next(row for row in rows if [*key] == [row[k] for k in ((0,) if name == "dropin" else (0, 1, 2, 3))])
-    return [float(row[head.index(column)].split()[0]) for column in COLUMNS[name]]
+def reported(name, heading, key, column):
+    """Numbers of a cell: of the first table after the heading, in the row that begins with the key. A ratio has its range after
+    the median."""
+    text = section(name)
+    if heading:
+        text = text[text.index(f"### {heading}\n"):]
+    head, *rows = table(text)
+    row = next(row for row in rows if row[:len(key)] == [*key])
+    return numbers(row[head.index(column)])
+
+
+def numbers(cell):
+    """As floats: 5.0 (4.8 to 5.2), 130 000, 1.3e+05."""
+    return [float(each) for each in re.findall(r"\d*\.?\d+(?:e[+-]\d+)?", re.sub(r"(?<=\d) (?=\d)", "", cell))]
 
 
 class Figures(unittest.TestCase):
@@ -58,27 +135,44 @@ class Figures(unittest.TestCase):
         digits = len(shown.partition(".")[2])
         self.assertLessEqual(abs(float(shown) - value), 0.5001 * 10**-digits, f"{where}: {shown}, the report has {value}")
 
+    def assert_cell(self, shown, value, where):
+        """A cell of our pages, all numbers of which are in the report."""
+        texts = re.findall(r"\d*\.?\d+", re.sub(r"(?<=\d) (?=\d)", "", shown))
+        self.assertLessEqual(len(texts), len(value), where)
+        for each, number in zip(texts, value):
+            self.assert_rounded(each, number, where)
+
     def test_first_table_of_readme(self):
         head, *rows = table(read("README.md"))
         self.assertEqual(head, ["script", "one core", "two ranks"])
-        for words, keys in README_ROWS.items():
+        for words, cells in README_ROWS.items():
             with self.subTest(words):
                 row = next(row for row in rows if row[0].startswith(words))
                 for column in (0, 1):
                     shown = row[1 + column].split(", ")
-                    self.assertEqual(len(shown), len(keys))
-                    for number, key in zip(shown, keys):
-                        self.assert_rounded(number, reported(*key)[column], f"README, {words}")
+                    self.assertEqual(len(shown), len(cells))
+                    for number, pair in zip(shown, cells):
+                        self.assert_rounded(number, reported(*pair[column])[0], f"README, {words}")
         self.assertEqual(len(rows), len(README_ROWS))
 
-    def test_page_of_figures(self):
-        text = read("doc", "figures.md")
-        part = text[text.index("Existing scripts with"):].replace("\n", " ")
-        for words, case in FIGURES:
-            with self.subTest(case):
-                found = re.search(words + r" ([\d.]*\d)", part)
-                self.assertTrue(found, words)
-                self.assert_rounded(found[1], reported("dropin", case)[0], f"figures.md, {case}")
+    def test_table_of_figures(self):
+        head, *rows = table(read("doc", "figures.md"))
+        self.assertEqual(head, ["bed", "other code", "its time", "Talus", "ratio"])
+        self.assertEqual(len(rows), len(FIGURES_ROWS))
+        for row, (bed, other, cells) in zip(rows, FIGURES_ROWS):
+            with self.subTest(f"{bed}, {other}"):
+                self.assertTrue(row[0].startswith(bed) and row[1].startswith(other), row)
+                for shown, cell in zip(row[2:], cells):
+                    self.assert_cell(shown, reported(*cell), f"figures.md, {bed}, {other}")
+
+    def test_sentences(self):
+        for file, words, cells in SENTENCES:
+            with self.subTest(f"{file}: {words}"):
+                found = re.search(words, read(*file.split("/")).replace("\n", " "))
+                self.assertTrue(found, f"{file} has no '{words}'")
+                values = [value for cell in cells for value in reported(*cell)[:found.re.groups // len(cells)]]
+                for shown, value in zip(found.groups(), values):
+                    self.assert_rounded(shown, value, f"{file}, {words}")
 
     def test_every_section_is_there(self):
         """What `scripts/bench all` runs has a section in the report."""
