@@ -174,6 +174,25 @@ class Figures(unittest.TestCase):
                 for shown, value in zip(found.groups(), values):
                     self.assert_rounded(shown, value, f"{file}, {words}")
 
+    def test_time_steps(self):
+        """Steps of order 1 and 2 and of the stock styles in README's table of time steps, and what an accuracy costs with e = .5."""
+        text = section("timestep")
+        first, second, stock = [float(x) for x in re.findall(r"([\d.]+) ns per particle with", text)]
+        readme = read("README.md")
+        rows = {row[0]: row for row in table(readme[readme.index("## Which time step"):])}
+        for words, column, value in (("filling", 5, stock / first), ("restitution and rebound to 1 %, e above", 5, stock / first),
+                                     ("restitution and rebound to 1 %, e = .5", 3, second / first),
+                                     ("energy, where nothing", 3, second / first)):
+            row = next(row for what, row in rows.items() if what.startswith(words))
+            self.assert_rounded(row[column], value, f"README, {words}")
+        laws = ("linear, damped", "hertz/material, e = .5", "hertz/material, e = .5, friction")
+        for error, names in (("1 %", {4: "order 1", 5: "stock"}), ("0.1 %", {3: "order 2", 4: "order 1", 5: "stock"})):
+            row = rows[f"restitution and rebound to {error.lstrip('0')}, e = .5"]
+            for column, name in names.items():
+                found = [reported("timestep", "What it costs", (law, error), name)[0] for law in laws]
+                for shown, value in zip(row[column].split(" to "), (min(found), max(found))):
+                    self.assert_rounded(shown, value, f"README, {row[0]}, {name}")
+
     def test_every_section_is_there(self):
         """What `scripts/bench all` runs has a section in the report."""
         names = re.search(r"all\) names\+=\(([\w ]*)\)", read("scripts", "bench"))[1].split()
