@@ -80,6 +80,9 @@ SENTENCES = [
     ("doc/figures.md", f"two ranks reach {RANGE}", single("ranks")[2:]),
     ("doc/figures.md", f"independent runs, {RANGE} with overlap", single("overlapped")[2:]),
     ("doc/figures.md", f"two threads {RANGE}", single("threads")[2:]),
+    ("doc/figures.md", f"takes {NUMBER} bytes for each, the stock styles {NUMBER}",
+     [("memory", "1236372 spheres, whole process", (code,), "bytes per particle")
+      for code in ("Talus, multistep friction, floor and walls", "stock gran/hertz/history, floor and walls")]),
     ("doc/figures.md", f"five planes {NUMBER}", script("bed")[:1]),
     ("doc/figures.md", f"five planes [^,]*, with pair granular {NUMBER}", script("bed.tsuji")[:1]),
     ("doc/figures.md", rf"\(jkr {NUMBER}", script("bed.jkr")[:1]),
@@ -114,11 +117,11 @@ def section(name):
 
 
 def reported(name, heading, key, column):
-    """Numbers of a cell: of the first table after the heading, in the row that begins with the key. A ratio has its range after
-    the median."""
+    """Numbers of a cell: of the first table after the heading, or of that with the heading in its first cell, in the row that begins
+    with the key. A ratio has its range after the median."""
     text = section(name)
     if heading:
-        text = text[text.index(f"### {heading}\n"):]
+        text = text[re.search(rf"^(### |\| ){heading}( \||$)", text, re.M).start():]
     head, *rows = table(text)
     row = next(row for row in rows if row[:len(key)] == [*key])
     return numbers(row[head.index(column)])
