@@ -8,7 +8,7 @@ GROWTH, OVERLAP = 1e-3, 0.1      # above these a run counts as bad
 
 # what a warning must be about to count for a fault: words of it, by the word of faults()
 DEEP = ("overlap", "moves by", "move past", "time step is", "Lost")
-TOLD_BY = {"energy": ("time step", "overlap", "Lost"), "overlap": DEEP, "lost": DEEP, "not": DEEP}
+TOLD_BY = {"energy": ("time step", "overlap", "Lost"), "overlap": DEEP, "lost": DEEP, "not": DEEP, "passed": DEEP}
 
 
 @dataclasses.dataclass
@@ -41,6 +41,7 @@ class Outcome:
     swing: float = 0.0
     overlap: float = 0.0
     lost: int = 0
+    passed: bool = False       # what was to meet never touched
     finite: bool = True
     creep: float = 0.0
     kinetic: float = 0.0       # at the end
@@ -54,6 +55,8 @@ class Outcome:
             found.append("not a number")
         if self.lost:
             found.append(f"{self.lost} lost")
+        if self.passed:
+            found.append("passed through")
         if self.growth > GROWTH:
             found.append(f"energy +{self.growth:.1e}")
         if self.overlap > OVERLAP:
@@ -128,14 +131,15 @@ def said(result):
     return {"warnings": tuple(w for w in result.warnings() if any(word in w for word in about)), "error": result.error()}
 
 
-def judge_account(rows, result, count, driven=False):
+def judge_account(rows, result, count, driven=False, meet=False):
     """The same from what the run itself has printed: rows (step, particles, kinetic, potential, elastic, overlap over the
-    radius). driven: something outside does work, so that energies may rise."""
+    radius). driven: something outside does work, so that energies may rise. meet: some row must have an overlap."""
     outcome = Outcome(**said(result))
     for step, particles, *_, overlap in rows:
         outcome.steps = max(outcome.steps, int(step))
         outcome.lost = max(outcome.lost, count - int(particles))
         outcome.overlap = max(outcome.overlap, overlap)
+    outcome.passed = meet and bool(rows) and outcome.overlap == 0.0
     outcome.finite = all(math.isfinite(number) for row in rows for number in row)
     whole = [row for row in rows if row[1] == count]
     if driven or not whole or not outcome.finite:

@@ -366,6 +366,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdict.judge_account(risen, quiet, 2).faults(), ["energy +2.0e-03"])
         self.assertEqual(verdict.judge_account(risen, quiet, 2, driven=True).word(), "stable")
         self.assertEqual(verdict.judge_account(rows, quiet, 3).faults(), ["1 lost"])
+        apart = [(*row[:5], 0.0) for row in rows]
+        self.assertEqual(verdict.judge_account(apart, quiet, 2).word(), "stable")
+        self.assertEqual(verdict.judge_account(apart, quiet, 2, meet=True).word(), "silent")
+        self.assertEqual(verdict.judge_account(rows, quiet, 2, meet=True).word(), "stable")
+        moved = types.SimpleNamespace(warnings=lambda: ["WARNING: Fix shape/gran: the surface of particle 2 moves by"], error=lambda: "")
+        self.assertEqual(verdict.judge_account(apart, moved, 2, meet=True).word(), "warned")
         self.assertEqual(verdict.judge_account([*rows, (200.0, 2.0, 5.0, 1.0, 0.0, 0.3)], quiet, 2).faults(), ["overlap 0.30 r"])
         self.assertEqual(verdict.judge_account([*rows, (200.0, 2.0, math.nan, 1.0, 0.0, 0.0)], quiet, 2).faults(), ["not a number"])
 
