@@ -75,6 +75,8 @@ def digest(path):
 
 def run(bench, name, code, physics, steps):
     ranks, threads, before, skin, last = WAYS[name]
+    if code == STOCK:
+        last = ""      # commands of Talus
     options = dict(ranks=ranks, threads=threads, cores=machine.cores())
     after = ""
     if before == "balance":
