@@ -69,6 +69,12 @@ FIGURES_ROWS = [
     ("2500 clumps", "stock `fix rigid/small` with gran/hertz/history", clumps("gran/hertz/history")),
 ]
 
+# words of doc/figures.md before a number of a script on one core
+SCRIPTS = [("five planes", "bed"), ("five planes [^,]*, with pair granular", "bed.tsuji"), (r"\(jkr", "bed.jkr"),
+           ("`in.granregion.mixer`", "granregion.mixer"), ("`.funnel`", "granregion.funnel"), ("`.box`", "granregion.box"),
+           ("`in.pour.flatwall`", "pour.flatwall"), ("`in.pour`", "pour"), ("`in.pour.heat`", "pour.heat"),
+           ("`in.chute` with 3000 steps", "chute.long"), ("`in.pour.drum`", "pour.drum"), ("`in.pour.2d`", "pour.2d")]
+
 # sentences: file, words with a group for each number, cells of the report
 NUMBER, RANGE = r"([\d.]*\d)", r"([\d.]*\d) \(([\d.]*\d) to ([\d.]*\d)\)"
 SENTENCES = [
@@ -83,18 +89,7 @@ SENTENCES = [
     ("doc/figures.md", f"takes {NUMBER} bytes for each, the stock styles {NUMBER}",
      [("memory", "1236372 spheres, whole process", (code,), "bytes per particle")
       for code in ("Talus, multistep friction, floor and walls", "stock gran/hertz/history, floor and walls")]),
-    ("doc/figures.md", f"five planes {NUMBER}", script("bed")[:1]),
-    ("doc/figures.md", f"five planes [^,]*, with pair granular {NUMBER}", script("bed.tsuji")[:1]),
-    ("doc/figures.md", rf"\(jkr {NUMBER}", script("bed.jkr")[:1]),
-    ("doc/figures.md", f"`in.granregion.mixer` {NUMBER}", script("granregion.mixer")[:1]),
-    ("doc/figures.md", f"`.funnel` {NUMBER}", script("granregion.funnel")[:1]),
-    ("doc/figures.md", f"`.box` {NUMBER}", script("granregion.box")[:1]),
-    ("doc/figures.md", f"`in.pour.flatwall` {NUMBER}", script("pour.flatwall")[:1]),
-    ("doc/figures.md", f"`in.pour` {NUMBER}", script("pour")[:1]),
-    ("doc/figures.md", f"`in.pour.heat` {NUMBER}", script("pour.heat")[:1]),
-    ("doc/figures.md", f"`in.chute` with 3000 steps {NUMBER}", script("chute.long")[:1]),
-    ("doc/figures.md", f"`in.pour.drum` {NUMBER}", script("pour.drum")[:1]),
-    ("doc/figures.md", f"`in.pour.2d` {NUMBER}", script("pour.2d")[:1]),
+    *(("doc/figures.md", f"{words} {NUMBER}", script(case)[:1]) for words, case in SCRIPTS),
     ("doc/figures.md", f"a gas in a periodic box {NUMBER}, {NUMBER} and {NUMBER}",
      [script(f"gas.{fraction}")[0] for fraction in ("0.02", "0.1", "0.3")]),
     ("doc/figures.md", f"On two ranks the bed has {NUMBER}", script("bed")[1:]),
