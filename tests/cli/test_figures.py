@@ -180,7 +180,11 @@ class Figures(unittest.TestCase):
         rows = {row[0]: row for row in table(readme[readme.index("## Which time step"):])}
         for words, column, value in (("filling", 5, stock / first), ("restitution and rebound to 1 %, e above", 5, stock / first),
                                      ("restitution and rebound to 1 %, e = .5", 3, second / first),
-                                     ("energy, where nothing", 3, second / first)):
+                                     ("energy, where nothing", 3, second / first),
+                                     # time steps that keep the energy: .03 of the critical one, .07 with Hertz, over .2
+                                     ("energy, where nothing", 4, 0.2 / 0.03), ("energy, where nothing", 5, 0.2 / 0.03 * stock / first),
+                                     ("the same, Hertz", 3, 0.2 / 0.07), ("the same, Hertz", 4, 0.2 / 0.07),
+                                     ("the same, Hertz", 5, 0.2 / 0.07 * stock / first)):
             row = next(row for what, row in rows.items() if what.startswith(words))
             self.assert_rounded(row[column], value, f"README, {words}")
         laws = ("linear, damped", "hertz/material, e = .5", "hertz/material, e = .5, friction")
