@@ -75,6 +75,9 @@ SCRIPTS = [("five planes", "bed"), ("five planes [^,]*, with pair granular", "be
            ("`in.pour.flatwall`", "pour.flatwall"), ("`in.pour`", "pour"), ("`in.pour.heat`", "pour.heat"),
            ("`in.chute` with 3000 steps", "chute.long"), ("`in.pour.drum`", "pour.drum"), ("`in.pour.2d`", "pour.2d")]
 
+# scenes of the section accuracy where contacts are damped; not that of rolling resistance alone, where order 2 gains far more
+DAMPED = ("hooke damped", "hertz damped", "mixed", "stack", "cluster")
+
 # sentences: file, words with a group for each number, cells of the report
 NUMBER, RANGE = r"([\d.]*\d)", r"([\d.]*\d) \(([\d.]*\d) to ([\d.]*\d)\)"
 SENTENCES = [
@@ -194,6 +197,22 @@ class Figures(unittest.TestCase):
                 found = [reported("timestep", "What it costs", (law, error), name)[0] for law in laws]
                 for shown, value in zip(row[column].split(" to "), (min(found), max(found))):
                     self.assert_rounded(shown, value, f"README, {row[0]}, {name}")
+
+    def test_errors_against_run_time(self):
+        """What order 1 and the faster stock style take for the motion of a few grains where contacts are damped, over order 2."""
+        text = section("accuracy")
+        head, *rows = table(text[text.index("| scene | error | Talus with"):])
+        order_1, *stock = [head.index(f"{name}: dt") + 2 for name in ("order 1", "stock", "granular")]     # columns of "times"
+        readme = read("README.md")
+        row = next(row for row in table(readme[readme.index("## Which time step"):]) if row[0].startswith("motion of a few"))
+        words = re.search(r"order 2 needs ([\d.]+) to (\d+) times less.*?and (\d+) to (\d+)", read("doc", "choosing.md"), re.S)
+        for error, columns, shown in (("1e-04", [order_1], row[4].split(" to ")), ("1e-04", stock, row[5].split(" to ")),
+                                      ("1e-03", stock, words.groups()[:2]), ("1e-04", stock, words.groups()[2:])):
+            found = [min(float(cells[k].lstrip("~")) for k in columns if cells[k] != "-")
+                     for cells in rows if cells[1] == error and cells[0] in DAMPED]
+            self.assertEqual(len(found), len(DAMPED))
+            for number, value in zip(shown, (min(found), max(found))):
+                self.assert_rounded(number, value, f"{error}, columns {columns}")
 
     def test_every_section_is_there(self):
         """What `scripts/bench all` runs has a section in the report."""
