@@ -33,7 +33,7 @@ bool SavedFixes::is_own(const Fix *fix) const
 bool SavedFixes::follows_particles(const Fix *fix) const
 {
   for (int n = 0; n < atom->nextra_grow; n++)
-    if (modify->fix[atom->extra_grow[n]] == fix) return true;
+    if (modify->get_fix_by_index(atom->extra_grow[n]) == fix) return true;
   return false;
 }
 
