@@ -20,6 +20,9 @@ using Vector = Vector3<double>;
 
 constexpr int rim_points = 12;
 
+// Cosine of the angle between normals on both sides of a point of an edge: below, they are two.
+constexpr double no_kink = 1.0 - 1.0e-12;
+
 class RoundContacts {
  public:
   RoundContacts(const ConvexShape &shape, const Pose &particle_pose, const Frustum &frustum,
@@ -36,6 +39,7 @@ class RoundContacts {
     add_edges();
     if (body.is_infinite()) return;
     for (const int end : {0, 1}) add_rim(end);
+    for (const Kink &kink : kinks) points[kink.contact].weight *= kink.slope;
     sort_by_name(points);
   }
 
@@ -90,6 +94,11 @@ class RoundContacts {
     double distance;
     int contact;    // or -1
   };
+  /// A contact whose overlap changes by less than it moves along its normal.
+  struct Kink {
+    int contact;
+    double slope;
+  };
   const ConvexCore &core;
   const Pose &pose;
   const Frustum &body;
@@ -99,6 +108,7 @@ class RoundContacts {
   struct Buffers {
     std::vector<Vertex> vertices;
     std::vector<int> of_edge;    // its contact between the ends, or -1
+    std::vector<Kink> kinks;
     SharedEnergy energy;
   };
   static Buffers &buffers()
@@ -108,6 +118,7 @@ class RoundContacts {
   }
   std::vector<Vertex> &vertices = buffers().vertices;
   std::vector<int> &of_edge = buffers().of_edge;
+  std::vector<Kink> &kinks = buffers().kinks;
   SharedEnergy &energy = buffers().energy;
 };
 
@@ -128,6 +139,7 @@ void RoundContacts::add_vertices()
 void RoundContacts::add_edges()
 {
   of_edge.assign(core.num_edges(), -1);
+  kinks.clear();
   for (int e = 0; e < core.num_edges(); e++) {
     const int *end = core.edge(e).vertex;
     const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
@@ -138,7 +150,8 @@ void RoundContacts::add_edges()
   }
 }
 
-/* By bisection of the slope. */
+/* By bisection of the slope. Inside the body it may jump there, between a cap and the mantle: the
+   overlap then changes as along the mean of both normals that is perpendicular to the edge. */
 
 void RoundContacts::add_edge(int e)
 {
@@ -146,19 +159,29 @@ void RoundContacts::add_edge(int e)
   const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
   const Vector along = b.place - a.place;
   double low = 0.0, high = 1.0, least = reach;
-  Vector outward = a.outward, place = a.place;
+  Vector outward = a.outward, place = a.place, before = a.outward, beyond = b.outward;
   for (int step = 0; step < 48; step++) {
     const double middle = 0.5 * (low + high);
     place = a.place + middle * along;
     least = distance(place, outward);
-    (dot(outward, along) < 0.0 ? low : high) = middle;
+    const bool falls = dot(outward, along) < 0.0;
+    (falls ? low : high) = middle;
+    (falls ? before : beyond) = outward;
   }
   const double overlap = radius - least;
   if (!(overlap > 0.0)) return;
+  double slope = 1.0;
+  if (dot(before, beyond) < no_kink) {
+    const double falling = -dot(before, along), rising = dot(beyond, along);
+    outward = (1.0 / (falling + rising)) * (rising * before + falling * beyond);
+    slope = length(outward);
+    outward = slope > 0.0 ? (1.0 / slope) * outward : before;
+  }
   energy.begin(overlap, force_exponent);
   add_end(a.contact);
   add_end(b.contact);
   of_edge[e] = add_shared(place, outward, overlap, contact_name(ContactParts::EDGES, e, 0));
+  if (of_edge[e] >= 0 && slope < 1.0) kinks.push_back({of_edge[e], slope});
 }
 
 /* ---- rims ------------------------------------------------------------------------------------- */
