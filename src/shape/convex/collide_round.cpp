@@ -39,7 +39,7 @@ class RoundContacts {
     add_edges();
     if (body.is_infinite()) return;
     for (const int end : {0, 1}) add_rim(end);
-    for (const Kink &kink : kinks) points[kink.contact].weight *= kink.slope;
+    for (std::size_t k = 0; k < edges.size(); k++) points[first_edge + k].weight *= edges[k].slope;
     sort_by_name(points);
   }
 
@@ -72,8 +72,22 @@ class RoundContacts {
     const int contact = add(on_particle, normal, overlap, name);
     points[contact].weight = energy.weight();
     points[contact].energy = energy.energy();
-    energy.take_from(points);
+    take_shares();
     return contact;
+  }
+  /// Also from the ends of edges, which have less to do with this than the edges themselves have.
+  void take_shares()
+  {
+    energy.visit_ends([this](int contact, double share, double weight) {
+      if (contact < first_edge || contact >= first_edge + static_cast<int>(edges.size())) {
+        points[contact].weight -= weight;
+        return;
+      }
+      const EdgeContact &edge = edges[contact - first_edge];
+      const double part = weight / share;
+      points[contact].weight -= part * edge.weight;
+      for (int k = 0; k < edge.num_ends; k++) points[edge.end[k]].weight += part * edge.taken[k];
+    });
   }
   /// With the share that it has left to its own ends, so that it counts less the nearer it is to them.
   void add_end(int contact)
@@ -94,10 +108,12 @@ class RoundContacts {
     double distance;
     int contact;    // or -1
   };
-  /// A contact whose overlap changes by less than it moves along its normal.
-  struct Kink {
-    int contact;
-    double slope;
+  /// The contact of an edge: its weight and what it takes from its ends, before rims share with it; and
+  /// by how much its overlap changes as it moves along its normal.
+  struct EdgeContact {
+    double weight, slope;
+    int num_ends, end[2];
+    double taken[2];
   };
   const ConvexCore &core;
   const Pose &pose;
@@ -107,8 +123,8 @@ class RoundContacts {
   // of this thread, used again
   struct Buffers {
     std::vector<Vertex> vertices;
-    std::vector<int> of_edge;    // its contact between the ends, or -1
-    std::vector<Kink> kinks;
+    std::vector<int> of_edge;          // its contact between the ends, or -1
+    std::vector<EdgeContact> edges;    // those, in the order of their contacts
     SharedEnergy energy;
   };
   static Buffers &buffers()
@@ -118,7 +134,8 @@ class RoundContacts {
   }
   std::vector<Vertex> &vertices = buffers().vertices;
   std::vector<int> &of_edge = buffers().of_edge;
-  std::vector<Kink> &kinks = buffers().kinks;
+  std::vector<EdgeContact> &edges = buffers().edges;
+  int first_edge = 0;    // the contact of the first one
   SharedEnergy &energy = buffers().energy;
 };
 
@@ -139,7 +156,8 @@ void RoundContacts::add_vertices()
 void RoundContacts::add_edges()
 {
   of_edge.assign(core.num_edges(), -1);
-  kinks.clear();
+  edges.clear();
+  first_edge = static_cast<int>(points.size());
   for (int e = 0; e < core.num_edges(); e++) {
     const int *end = core.edge(e).vertex;
     const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
@@ -181,7 +199,13 @@ void RoundContacts::add_edge(int e)
   add_end(a.contact);
   add_end(b.contact);
   of_edge[e] = add_shared(place, outward, overlap, contact_name(ContactParts::EDGES, e, 0));
-  if (of_edge[e] >= 0 && slope < 1.0) kinks.push_back({of_edge[e], slope});
+  if (of_edge[e] < 0) return;
+  EdgeContact edge{energy.weight(), slope, 0, {}, {}};
+  energy.visit_ends([&edge](int contact, double /*share*/, double weight) {
+    edge.end[edge.num_ends] = contact;
+    edge.taken[edge.num_ends++] = weight;
+  });
+  edges.push_back(edge);
 }
 
 /* ---- rims ------------------------------------------------------------------------------------- */
