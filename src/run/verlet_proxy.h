@@ -32,12 +32,14 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   void run(int) override;
   void cleanup() override;
   std::string reason_for_stock() const override;
+  bool was_set_up() const override { return ever_set_up; }
   void lists_are_made() override;
 
  private:
   enum class Overlap { AUTOMATIC, YES, NO };
 
   bool makes_own_steps() const { return reason_for_stock().empty(); }
+  void go_on_without_set_up();
   void decide_on_overlap();
   bool others_act_on_ghosts() const;
   void step();
@@ -49,6 +51,8 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   std::shared_ptr<Talus::GranularSystem> system;
   Overlap wanted = Overlap::AUTOMATIC;
   std::optional<bool> on_machines;     ///< more than one
+  bool ever_set_up = false, set_up = false;    ///< the second: for the coming run
+  bool needs_lists = false;                    ///< the next step makes neighbor lists
   bool overlaps = false;               ///< in this run
   bool reverses = false;               ///< in this run forces on ghosts go to their owners
   Talus::ExchangeCounters at_start;    ///< of the run

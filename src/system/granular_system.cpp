@@ -49,7 +49,7 @@ GranularSystem::GranularSystem(LAMMPS *lmp) :
     contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
     energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
     proxies(lmp, exchange_switch), gravity(lmp, *this), loads_of_others(lmp, *this),
-    record_steps(lmp, *this, movers), lists(lmp), largest_move(lmp)
+    record_steps(lmp, *this, movers), lists(lmp), set_up_with(lmp, *this), largest_move(lmp)
 {
   contact_pipeline.emplace();
 }
@@ -115,6 +115,7 @@ std::string GranularSystem::reason_of_pair_style() const
 
 void GranularSystem::init_pair_style()
 {
+  set_up_with.are_listed();
   run_contacts.keep();
   neighbor_source.init(pair);
   gravity.forget();
