@@ -29,9 +29,8 @@ ExternalLoads &loads_of(talus_partner &partner)
   if (!problem.empty()) throw Refusal(problem);
   if (loads.make_fix()) partner.needs_set_up = true;
   const int number = partner.number();
-  partner.at_close("loads on particles", [number](GranularSystem &system) {
-    system.external_loads().clear(number);
-  });
+  partner.at_close("loads on particles",
+                   [number](GranularSystem &system) { system.external_loads().clear(number); });
   return loads;
 }
 

@@ -161,7 +161,8 @@ bool talus_partner::agree(const char *name)
   }
   const double digest = as_number(name ? digest_of(name, std::strlen(name)) : of_failure);
   const double none = std::numeric_limits<double>::max(), partner = order;
-  double here[5] = {name ? digest : none, name ? -digest : none, name ? none : me, partner, -partner},
+  double here[5] = {name ? digest : none, name ? -digest : none, name ? none : me, partner,
+                    -partner},
          all[5];
   MPI_Allreduce(here, all, 5, MPI_DOUBLE, MPI_MIN, world());
   const bool same_partner = all[3] == -all[4];

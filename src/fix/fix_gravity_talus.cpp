@@ -51,11 +51,12 @@ void FixGravityTalus::say_where_it_differs()
     if (fix == this) return;
     if (!fix->rigid_flag || utils::strmatch(fix->style, "/symplectic$")) continue;
     if (comm->me == 0 && !has_said)
-      error->warning(FLERR,
-                     "Fix gravity {}: in LAMMPS the bodies of fix {} do not fall in the first half step of a "
-                     "run, because fix gravity comes behind it; here they do: put fix gravity before it for "
-                     "the same results with both",
-                     id, fix->id);
+      error->warning(
+          FLERR,
+          "Fix gravity {}: in LAMMPS the bodies of fix {} do not fall in the first half step of a "
+          "run, because fix gravity comes behind it; here they do: put fix gravity before it for "
+          "the same results with both",
+          id, fix->id);
     has_said = true;
   }
 }

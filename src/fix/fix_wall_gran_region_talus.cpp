@@ -42,8 +42,11 @@ void FixWallGranRegionTalus::for_each_contact(ContactData requested, const Visit
 void FixWallGranRegionTalus::write_restart(FILE *file)
 {
   if (domain->get_region_by_id(idregion) != region)
-    error->all(FLERR, "Fix wall/gran/region {}: region '{}' has been deleted or defined anew since the last run: "
-                      "let a run be set up before its state is saved", id, idregion);
+    error->all(
+        FLERR,
+        "Fix wall/gran/region {}: region '{}' has been deleted or defined anew since the last run: "
+        "let a run be set up before its state is saved",
+        id, idregion);
   AcceleratedWall::write_restart(file);
 }
 

@@ -115,7 +115,7 @@ class LargeBodyMotion : protected Pointers {
   Quantity path[8];    // displacement, velocity, angle, angular velocity
   Talus::Vector3<double> angle_axis{0.0, 0.0, 1.0};
   Talus::RegionHandle region;    // that the body follows
-  double region_angle = 0.0;    // at the state that `now` has
+  double region_angle = 0.0;     // at the state that `now` has
   Talus::ExternalMotion external;
   Talus::RigidBody rigid;
   Talus::Servo servo;

@@ -108,10 +108,11 @@ void VerletProxy::go_on_without_set_up()
 {
   const std::string change = system->definitions().change();
   if (!change.empty())
-    error->all(FLERR,
-               "Run style {}: 'run ... pre no' goes on with what the last run has set up, but {} since: "
-               "leave 'pre no' out",
-               update->integrate_style, change);
+    error->all(
+        FLERR,
+        "Run style {}: 'run ... pre no' goes on with what the last run has set up, but {} since: "
+        "leave 'pre no' out",
+        update->integrate_style, change);
   needs_lists = system->definitions().have_other_ghosts();
 }
 

@@ -102,7 +102,8 @@ void Definitions::are_set_up()
 namespace {
 
 /// The first of these that is not one of those; nullptr: there is none.
-template <class List> const typename List::value_type *first_beyond(const List &these, const List &those)
+template <class List>
+const typename List::value_type *first_beyond(const List &these, const List &those)
 {
   const auto found = std::find_if(these.begin(), these.end(), [&those](const auto &one) {
     return std::none_of(those.begin(), those.end(), [&one](const auto &other) {
@@ -174,8 +175,7 @@ std::string Definitions::change() const
 
 bool Definitions::have_other_ghosts() const
 {
-  return on_any_rank(then.ghosts !=
-                     digest_of_particles(atom->nlocal, atom->nlocal + atom->nghost));
+  return on_any_rank(then.ghosts != digest_of_particles(atom->nlocal, atom->nlocal + atom->nghost));
 }
 
 bool Definitions::on_any_rank(bool here) const

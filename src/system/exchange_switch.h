@@ -65,8 +65,8 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   void settle_brick();
 
   Choice chosen = Choice::AUTOMATIC;
-  const LAMMPS_NS::Comm *made = nullptr;
   int num_made = 0;
+  const LAMMPS_NS::Comm *made = nullptr;
   ProxyUpdates *proxies_of_made = nullptr;
 };
 

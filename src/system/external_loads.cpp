@@ -162,8 +162,8 @@ void ExternalLoads::put_forces(int partner, const ParticlesById &particles, cons
   });
 }
 
-void ExternalLoads::put_drag(int partner, const ParticlesById &particles,
-                             const double *coefficient, const double *fluid_velocity)
+void ExternalLoads::put_drag(int partner, const ParticlesById &particles, const double *coefficient,
+                             const double *fluid_velocity)
 {
   replace(partner, DRAG, particles, [&](std::size_t k, const Place &to) {
     *to.coefficient = coefficient[k];

@@ -62,7 +62,8 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// Each replaces all that this partner (its number) has put of its kind. Numbers for each particle of the list: force and
   /// torque, 3 each, or nullptr; coefficient of drag (force/velocity), velocity of the fluid (3
   /// each); heat flow (energy/time).
-  void put_forces(int partner, const ParticlesById &particles, const double *force, const double *torque);
+  void put_forces(int partner, const ParticlesById &particles, const double *force,
+                  const double *torque);
   void put_drag(int partner, const ParticlesById &particles, const double *coefficient,
                 const double *fluid_velocity);
   void put_heat(int partner, const ParticlesById &particles, const double *flow);
@@ -123,7 +124,8 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// What one of several partners has put on a particle, and impulses of its drag.
   struct Part {
     double kinds;    ///< bits FORCE to HEAT
-    double force[3], torque[3], coefficient, fluid_velocity[3], heat, for_particles[3], for_fields[3];
+    double force[3], torque[3], coefficient, fluid_velocity[3], heat, for_particles[3],
+        for_fields[3];
   };
   static constexpr int size_part = sizeof(Part) / sizeof(double);
   static bool has(const Part &part, unsigned some)
@@ -197,7 +199,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   std::vector<int> partners;    // who has put something, by number, in the order of their first
   std::vector<Layer> layers;    // of two or more, else none
   std::vector<int> gone;        // partners that were closed
-  std::vector<Kick> kicks;    // in the order of the script
+  std::vector<Kick> kicks;      // in the order of the script
   int frozen_bits = 0;
 };
 

@@ -151,7 +151,8 @@ void ExternalLoads::add_up(int i)
   copy_row(torque, others.torque);
   others.heat = heat;
   load.coefficient = coefficient;
-  for (int d = 0; d < 3 && coefficient > 0.0; d++) load.fluid_velocity[d] = momentum[d] / coefficient;
+  for (int d = 0; d < 3 && coefficient > 0.0; d++)
+    load.fluid_velocity[d] = momentum[d] / coefficient;
   unset(i, FORCE | TORQUE | DRAG | HEAT);
   set(i, kinds);
 }

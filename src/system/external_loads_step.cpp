@@ -110,8 +110,7 @@ void ExternalLoads::act_on(int i, const ParticleState &particles, Moment moment)
   const Kick *const kick = kick_of(i);
   const bool has_read = kick && kick->has_read;
   if (moment == Moment::BETWEEN_STEPS && has_read) return;
-  if (moment == Moment::STEP && has(i, DUE) && kick)
-    count_drag(i, kick->at_start);
+  if (moment == Moment::STEP && has(i, DUE) && kick) count_drag(i, kick->at_start);
   unset(i, ADDED | DUE);
   if (has(i, HEAT) && moment == Moment::STEP) atom->heatflow[i] += rest[i].heat;
   if (has(i, FORCE | TORQUE | DRAG) && !has_read) add(i, particles, kick, moment);

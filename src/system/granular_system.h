@@ -256,14 +256,14 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   SystemShapes *shaped = nullptr;
   Weights gravity;
-  ExternalLoads loads_of_others;
   StepsInRecords record_steps;
   MadeLists lists;
-  Definitions set_up_with;
   std::shared_ptr<const ContactPipeline::Lists> given_pairs;
   bool stays_in_records = false;    // after this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;
+  Definitions set_up_with;
+  ExternalLoads loads_of_others;
 };
 
 }    // namespace Talus

@@ -189,7 +189,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const LAMMPS_NS::Fix *fix;
   GranularSystem &system;
   std::unique_ptr<LargeBodyShape> body_shape;
-  std::optional<RegionHandle> region;
   const BodyFrame *frame = nullptr;
   SteeredBody *steered = nullptr;
   DeformingBody *deforming = nullptr;
@@ -220,10 +219,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   ExactLoad exact;
   bool exact_is_known = false;    ///< it is of the last step
   std::optional<ImpulseAccount> impulses;
-  std::set<int> watchers;
   static constexpr int size_digits = 6 * ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;
+
+  std::optional<RegionHandle> region;
+  std::set<int> watchers;    ///< while there are impulses
 };
 
 }    // namespace Talus

@@ -27,10 +27,10 @@ class SystemRunStyle {
   /// "" if it makes the steps of this run itself, else why it calls those of LAMMPS. Valid in
   /// setup() and run().
   virtual std::string reason_for_stock() const = 0;
-  /// A run with this object has been set up: it has no other way to know of what it calls.
-  virtual bool was_set_up() const = 0;
   /// Neighbor lists have been made between two runs, not by it.
   virtual void lists_are_made() = 0;
+  /// A run with this object has been set up: it has no other way to know of what it calls.
+  virtual bool was_set_up() const = 0;
 
  protected:
   ~SystemRunStyle() = default;    // never deleted through this interface
