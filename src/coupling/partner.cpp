@@ -373,7 +373,7 @@ void talus_partner::command(const std::string &line)
 
 void talus_partner::set_up_if_needed()
 {
-  if (needs_set_up || !system().definitions().change().empty()) set_up();
+  if (needs_set_up || !system().definitions().change_with_particles().empty()) set_up();
 }
 
 void talus_partner::set_up_if_lost()

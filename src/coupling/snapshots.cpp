@@ -42,7 +42,7 @@ int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
     partner->set_up_if_lost();    // restoring calls fixes, which look at regions and exchange
     const bool due = partner->needs_set_up || !partner->system().definitions().change().empty();
     snapshot->state.restore();
-    partner->system().definitions().are_set_up();    // particles are others
+    partner->system().definitions().are_present();
     partner->needs_set_up = due;
   });
 }

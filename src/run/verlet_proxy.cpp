@@ -106,7 +106,7 @@ void VerletProxy::decide_on_overlap()
 
 void VerletProxy::go_on_without_set_up()
 {
-  const std::string change = system->definitions().change();
+  const std::string change = system->definitions().change_with_particles();
   if (!change.empty())
     error->all(
         FLERR,
@@ -280,7 +280,7 @@ void VerletProxy::compute_forces(bool to_arrays)
 void VerletProxy::cleanup()
 {
   Verlet::cleanup();
-  system->definitions().are_set_up();
+  system->definitions().are_present();
   if (comm->me == 0 && lists) {
     if (lists->num_delayed())
       error->warning(FLERR,

@@ -82,6 +82,12 @@ void Definitions::are_listed()
 
 void Definitions::are_set_up()
 {
+  are_present();
+  listed = then.fixes;
+}
+
+void Definitions::are_present()
+{
   is_set_up = true;
   then.fixes = present_fixes();
   then.computes = present_computes();
@@ -93,6 +99,7 @@ void Definitions::are_set_up()
   then.pair = present_pair();
   then.laws = system.laws().revision();
   then.communication = system.exchange().number_of_object();
+  then.particles = atom->natoms;
   then.owned = digest_of_particles(0, atom->nlocal);
   then.ghosts = digest_of_particles(atom->nlocal, atom->nlocal + atom->nghost);
 }
@@ -163,14 +170,22 @@ std::string Definitions::lost() const
 
 std::string Definitions::change() const
 {
-  const bool others = on_any_rank(then.owned != digest_of_particles(0, atom->nlocal));
   std::string found = lost();
   if (found.empty()) found = difference(then.computes, present_computes());
   if (found.empty() && then.laws != system.laws().revision())
     found = "coefficients of pairs have been changed";
-  if (found.empty() && others)
-    found = "particles have been added, deleted, sorted or moved to other ranks";
+  if (found.empty() && then.particles != atom->natoms)
+    found = "particles have been added or deleted";
   return found;
+}
+
+std::string Definitions::change_with_particles() const
+{
+  const bool others = on_any_rank(then.owned != digest_of_particles(0, atom->nlocal));
+  const std::string found = change();
+  return found.empty() && others
+             ? "particles have been added, deleted, sorted or moved to other ranks"
+             : found;
 }
 
 bool Definitions::have_other_ghosts() const

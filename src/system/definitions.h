@@ -13,6 +13,7 @@
 #ifndef TALUS_SYSTEM_DEFINITIONS_H
 #define TALUS_SYSTEM_DEFINITIONS_H
 
+#include "lmptype.h"
 #include "pointers.h"
 
 #include <cstdint>
@@ -33,13 +34,17 @@ class Definitions : protected LAMMPS_NS::Pointers {
 
   /// LAMMPS lists the fixes that act, for whatever command: in each of its init().
   void are_listed();
-  /// A run has been set up or has ended, or a snapshot is restored.
+  /// A run has been set up.
   void are_set_up();
+  /// It has ended, which may have added or deleted particles; or a snapshot is restored.
+  void are_present();
   /// "" or what others may point to and is there no more as it was set up, or what LAMMPS has not listed,
   /// as text for messages: "fix w (wall/gran) has been defined".
   std::string lost() const;
-  /// The same of all that a run sets up.
+  /// The same of all that commands define, and of the number of particles.
   std::string change() const;
+  /// And of which particles each rank owns, in which order.
+  std::string change_with_particles() const;
   /// Where each rank owns the same particles as then, in the same order: whether ghosts are others, so that
   /// neighbor lists have to be made.
   bool have_other_ghosts() const;
@@ -55,6 +60,7 @@ class Definitions : protected LAMMPS_NS::Pointers {
     std::string run_style;
     std::vector<const LAMMPS_NS::Region *> addresses;    // of the regions
     int pair = -1, laws = -1, communication = -1;
+    LAMMPS_NS::bigint particles = 0;
     std::uint64_t owned = 0, ghosts = 0;
   };
   List present_fixes() const;
