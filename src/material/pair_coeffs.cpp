@@ -6,10 +6,16 @@
 #include "laws/second_order_laws.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <initializer_list>
 
 namespace Talus {
+namespace {
+
+void take_moduli(ContactSpec &to, const ContactSpec &from)
+{
+  for (const char *name : {"E", "nu"}) to.given[name] = from.given.value(name);
+}
+
+}    // namespace
 
 void PairCoeffs::resize(int ntypes)
 {
@@ -33,10 +39,34 @@ const ContactLaw &PairCoeffs::law(int i, int j) const
   return (is_set(i, j) ? spec(i, j) : spec(i, i)).law;
 }
 
+ContactSides PairCoeffs::sides(int i, int j) const
+{
+  if (!is_set(i, j)) return {spec(i, i), spec(j, j), mix};
+  ContactSides pair{spec(i, j), spec(i, j), mix};
+  if (takes_moduli_of_types(pair.a)) {
+    take_moduli(pair.a, spec(i, i));
+    take_moduli(pair.b, spec(j, j));
+  }
+  return pair;
+}
+
 ContactCoefficients PairCoeffs::coefficients(int i, int j) const
 {
-  if (is_set(i, j)) return contact_coefficients(spec(i, j), spec(i, j), mix);
-  return contact_coefficients(spec(i, i), spec(j, j), mix);
+  return sides(i, j).coefficients();
+}
+
+std::string PairCoeffs::note_on(int i, int j) const
+{
+  if (!is_set(i, j)) return "; mixed";
+  return takes_moduli_of_types(spec(i, j)) ? "; E and nu of both types" : "";
+}
+
+int PairCoeffs::type_without_moduli(int i, int j) const
+{
+  if (!is_set(i, j) || !takes_moduli_of_types(spec(i, j))) return 0;
+  for (int type : {i, j})
+    if (const ContactSpec *one = own(type); !one || !one->is_material()) return type;
+  return 0;
 }
 
 bool PairCoeffs::conducts_heat() const
@@ -83,33 +113,10 @@ LawTable PairCoeffs::table(int order) const
   return table;
 }
 
-/* Numbers of the normal direction first, then stiffness and damping of the tangential one. */
-
 std::string PairCoeffs::describe_pair(int i, int j) const
 {
-  const ContactLaw &pair_law = law(i, j);
-  const ContactCoefficients row = coefficients(i, j);
-  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
-                     describe_law(pair_law) + (is_set(i, j) ? ";" : "; mixed;");
-  const auto add = [&](Stage stage, Shown shown) {
-    const Law &one = pair_law[stage];
-    for (int n = 0; n < one.num_coefficients; n++) {
-      if (one.coefficients[n].shown != shown) continue;
-      char number[32];
-      snprintf(number, sizeof number, " %.6g", pair_law.coefficients(stage, row)[n]);
-      text += std::string(" ") + one.coefficients[n].name + number;
-    }
-  };
-  const auto always = [&](std::initializer_list<Stage> stages) {
-    for (Stage stage : stages) add(stage, Shown::ALWAYS);
-  };
-  always({Stage::NORMAL, Stage::DAMPING});
-  if (pair_law.tangential().reads_stiffness)
-    for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
-  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION, Stage::HEAT});
-  const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
-  const ContactSpec &b = is_set(i, j) ? a : spec(j, j);
-  return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");
+  return "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
+         sides(i, j).describe(note_on(i, j));
 }
 
 std::string PairCoeffs::describe(const LawTable &table) const
