@@ -21,6 +21,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   }
 
  protected:
+  bigint stock_size(const double *data) const override;
   void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }
   const Talus::WallSurface &surface() const override { return wall; }
   void place() override { wall.place(); }

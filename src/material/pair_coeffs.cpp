@@ -2,11 +2,11 @@
 
 #include "material/pair_coeffs.h"
 
+#include "base/number_text.h"
 #include "base/simd.h"
 #include "laws/second_order_laws.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <initializer_list>
 
 namespace Talus {
@@ -95,9 +95,8 @@ std::string PairCoeffs::describe_pair(int i, int j) const
     const Law &one = pair_law[stage];
     for (int n = 0; n < one.num_coefficients; n++) {
       if (one.coefficients[n].shown != shown) continue;
-      char number[32];
-      snprintf(number, sizeof number, " %.6g", pair_law.coefficients(stage, row)[n]);
-      text += std::string(" ") + one.coefficients[n].name + number;
+      text += std::string(" ") + one.coefficients[n].name + " " +
+              number_text(pair_law.coefficients(stage, row)[n]);
     }
   };
   const auto always = [&](std::initializer_list<Stage> stages) {
