@@ -12,6 +12,7 @@ import struct
 
 MARK = b"TlrestD\0"
 SIZE_HEAD = 24    # mark, size, digest
+FORMAT_OF_LAWS = 4    # of pair style gran/penalty
 END = b"LammpS RestartT\0"
 OF_ATOM = 16    # doubles of LAMMPS: their number, x, ID, type, group bits, image, v, radius, mass, omega
 TYPE = 5        # place among them
@@ -81,6 +82,15 @@ def parts_of_talus(data):
             at = end
         assert at == row + 8 * size, "records of a particle do not fill its row"
     return found
+
+
+def digest(layout, data):
+    """Of a part with the layout of this number: FNV-1a with words, as src/base/state_digest.h has it."""
+    value = 14695981039346656037
+    words = struct.unpack(f"<{(len(data) + 7) // 8}Q", data + b"\0" * (-len(data) % 8))
+    for word in (layout, *words):
+        value = (value ^ (word >> 32) ^ word) * 1099511628211 % 2**64
+    return struct.pack("<Q", value)
 
 
 def with_bit(data, byte, bit):

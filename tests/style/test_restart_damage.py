@@ -33,9 +33,10 @@ timestep 0.001
 region mouth block 1 9 1 9 8 9
 group all_of_them union all
 group balls type 1
-fix step balls nve/sphere/symplectic gravity 1.0 vector 0 0 -1
+fix fall all gravity 1.0 vector 0 0 -1
+fix step balls nve/sphere/symplectic
 fix floor all large/body plane 0 0 0  0 0 1 move rotate 5 5 0  0 0 1  10 contact {LAW}
-fix dice all shape/gran type 2 box 1 1 1 density 1 gravity 1.0 vector 0 0 -1
+fix dice all shape/gran type 2 box 1 1 1 density 1
 fix in balls pour/rate 2 1 mouth 300 diameter 0.6 density 1.0 seed 3
 """
 # clumps, and walls of the suffix
@@ -43,13 +44,14 @@ CLUMPS = """
 fix prop all property/atom mol ghost yes
 neighbor 0.2 bin
 neigh_modify exclude molecule/intra all
+thermo_style custom step
 timestep 0.001
 pair_style gran/hooke/history 4000.0 NULL 40.0 NULL 0.5 1
 pair_coeff * *
 {molecules}
 fix step all rigid/small/symplectic molecule gravity 1.0 vector 0 0 -1
 fix floor all wall/gran hooke/history 4000.0 NULL 40.0 NULL 0.5 1 zplane 0.0 NULL
-region pot block -1 11 -1 11 0.0 11 
+region pot block -1 11 -1 11 0.0 11
 fix pot all wall/gran/region hooke/history 4000.0 NULL 40.0 NULL 0.5 1 region pot
 """
 MOLECULES = "set atom 1*2 mol 1\nset atom 3*4 mol 2"
