@@ -3,6 +3,7 @@
 #include "coupling/partner.h"
 
 #include "base/state_digest.h"
+#include "exchange/large_messages.h"
 
 #include "comm.h"
 #include "error.h"
@@ -130,22 +131,12 @@ std::string in_one_line(std::string message)
              : message;
 }
 
-/// Of any length.
-template <class Number>
-void broadcast(Number *values, std::size_t count, MPI_Datatype type, int from, MPI_Comm world)
-{
-  constexpr std::size_t at_once = 1U << 30U;
-  for (std::size_t first = 0; first < count; first += at_once)
-    MPI_Bcast(values + first, static_cast<int>(std::min(at_once, count - first)), type, from,
-              world);
-}
-
 void broadcast(std::string &text, int from, MPI_Comm world)
 {
   std::uint64_t size = text.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, from, world);
   text.resize(size);
-  broadcast(text.data(), size, MPI_CHAR, from, world);
+  Talus::broadcast(text.data(), size, MPI_CHAR, from, world);
 }
 
 }    // namespace
@@ -339,31 +330,16 @@ std::vector<double> talus_partner::numbers_of(const char *what, const double *gi
 
 /* ---- results -------------------------------------------------------------------------------- */
 
+/* Instances of talus_partner that live on all ranks have a negative root. */
+
 void talus_partner::sum(std::vector<double> &numbers) const
 {
-  const int count = static_cast<int>(numbers.size());
-  if (root == TALUS_ALL_RANKS)
-    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, world());
-  else if (me == root)
-    MPI_Reduce(MPI_IN_PLACE, numbers.data(), count, MPI_DOUBLE, MPI_SUM, root, world());
-  else
-    MPI_Reduce(numbers.data(), nullptr, count, MPI_DOUBLE, MPI_SUM, root, world());
+  sum_over_ranks(numbers, root, world());
 }
 
 std::vector<std::int64_t> talus_partner::gather(const std::vector<std::int64_t> &mine) const
 {
-  const int here = static_cast<int>(mine.size());
-  std::vector<int> counts(num_ranks), first(num_ranks + 1, 0);
-  MPI_Allgather(&here, 1, MPI_INT, counts.data(), 1, MPI_INT, world());
-  for (int rank = 0; rank < num_ranks; rank++) first[rank + 1] = first[rank] + counts[rank];
-  std::vector<std::int64_t> all(lives_here() ? first[num_ranks] : 0);
-  if (root == TALUS_ALL_RANKS)
-    MPI_Allgatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
-                   MPI_INT64_T, world());
-  else
-    MPI_Gatherv(mine.data(), here, MPI_INT64_T, all.data(), counts.data(), first.data(),
-                MPI_INT64_T, root, world());
-  return all;
+  return Talus::gather(mine, MPI_INT64_T, root, world());
 }
 
 void talus_partner::command(const std::string &line)

@@ -10,6 +10,12 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
+bigint FixWallGranRegionTalus::stock_size(const double *data) const
+{
+  const auto count = static_cast<std::int64_t>(ubuf(data[1]).i);
+  return count >= 0 && count <= tmax ? 2 + count * (size_history + 1) : -1;
+}
+
 std::string FixWallGranRegionTalus::what_only_stock_does() const
 {
   return region->tmax > WallSurface::most_of_wall ? "its region has too many faces" : "";

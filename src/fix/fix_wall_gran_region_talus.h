@@ -23,6 +23,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override;
 
  protected:
+  bigint stock_size(const double *data) const override;
   void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }
   const Talus::WallSurface &surface() const override { return wall; }
   void place() override { wall.place(); }
