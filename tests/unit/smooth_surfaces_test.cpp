@@ -91,8 +91,8 @@ std::vector<Triangle> two_triangles(double half)
 std::vector<Triangle> slivers()
 {
   std::vector<Triangle> triangles;
-  const std::vector<double> x = {-4.0, -1.0, -0.999,   -0.1, 0.0, 1.0e-4,
-                                 0.01, 0.5,  0.500001, 1.7,  4.0},
+  const std::vector<double> x = {-4.0, -1.0, -0.999, -0.1, 0.0, 1.0e-4,
+                                 0.01, 0.5,  0.5001, 1.7,  4.0},
                             y = {-4.0, -0.3, -0.2999, 0.25, 0.2501, 1.1, 4.0};
   for (std::size_t i = 1; i < x.size(); i++)
     for (std::size_t j = 1; j < y.size(); j++) {
@@ -180,6 +180,34 @@ TEST(SmoothSurfaces, flat_ones_are_planes_at_any_overlap)
   }
 }
 
+/* Turned and far away coordinates have rounding errors of their own: an overlap is as it was but for them. */
+
+TEST(SmoothSurfaces, flat_ones_are_planes_wherever_they_are)
+{
+  RandomBodies random(38);
+  ShapeContacts contacts;
+  for (int k = 0; k < 60; k++) {
+    const Pose there(random.uniform(0.0, 100.0) * random.direction(), random.orientation());
+    std::vector<Triangle> moved = k % 2 ? slivers() : two_triangles(3.0);
+    for (Triangle &one : moved)
+      for (Vector &corner : one.corner) corner = there.point_in_space(corner);
+    const Touched floor = mesh("floor", moved);
+    const double rounding = 4.0e-15 * (length(there.position) + 4.0);
+    const Vector up = there.direction_in_space({0, 0, 1});
+    for (int n = 0; n < 50; n++) {
+      const Superellipsoid &a = particles()[n % particles().size()];
+      Pose pose({0, 0, 0}, random.orientation());
+      const double height = a.at_normal(-pose.direction_in_body(up)).height,
+                   overlap = std::max(any_overlap(height, random), 2.0 * rounding);
+      pose.position = there.point_in_space(
+          {random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2), height - overlap});
+      ASSERT_TRUE(floor.touch(a, pose, contacts)) << k << ": " << overlap;
+      ASSERT_EQ(contacts.points.size(), 1U) << k << ": " << overlap;
+      ASSERT_NEAR(contacts.points.front().overlap, overlap, rounding) << k;
+    }
+  }
+}
+
 TEST(SmoothSurfaces, what_is_beside_or_behind_a_plate_does_not_touch_it)
 {
   const Touched plate = mesh("plate", two_triangles(1.0));
@@ -195,6 +223,45 @@ TEST(SmoothSurfaces, what_is_beside_or_behind_a_plate_does_not_touch_it)
   EXPECT_NEAR(contacts.points.front().normal.z, 1.0, 1.0e-14);
 }
 
+/* ---- convex meshes ---------------------------------------------------------------------------- */
+
+/* The one takes the least overlap of all faces, edges and corners of a convex body, the other what triangles tell. */
+
+TEST(SmoothSurfaces, a_convex_mesh_is_the_convex_body_at_any_overlap)
+{
+  RandomBodies random(39);
+  ShapeContacts of_solid, of_mesh;
+  for (int body = 0; body < 12; body++) {
+    const ConvexShape hull =
+        body < 2    ? ConvexShape::box({1.2, 0.9, body ? 0.1 : 0.7}, 0.0)
+        : body == 2 ? ConvexShape::polyhedron(dodecahedron_corners(), 0.0)
+                    : ConvexShape::polyhedron(random.corners(12, {1.0, 0.9, 0.8}), 0.0);
+    const Touched triangles = mesh("mesh", hull.surface(1)),
+                  solid{"solid", std::make_shared<ConvexShape>(hull)};
+    for (int k = 0; k < 90; k++) {
+      const Superellipsoid &a = particles()[k % particles().size()];
+      const Vector way = random.direction();
+      Pose pose({0, 0, 0}, random.orientation());
+      const auto at = [&](double distance) {
+        pose.position = distance * way + Vector{0.1, 0.05, 0.02};
+        return pose;
+      };
+      double in = 0.0, out = 3.0;
+      for (int step = 0; step < 50; step++) {
+        const double middle = 0.5 * (in + out);
+        (solid.touch(a, at(middle), of_solid) ? in : out) = middle;
+      }
+      at(in - a.inscribed_radius() * random.decade(-11.0, -0.3));
+      ASSERT_TRUE(solid.touch(a, pose, of_solid)) << body << ", " << k;
+      ASSERT_TRUE(triangles.touch(a, pose, of_mesh)) << body << ", " << k;
+      ASSERT_EQ(of_mesh.points.size(), 1U) << body << ", " << k;
+      const double expected = of_solid.points.front().overlap;
+      ASSERT_NEAR(of_mesh.points.front().overlap, expected, 1.0e-13 + 1.0e-7 * expected)
+          << body << ", " << k;
+    }
+  }
+}
+
 /* ---- drums of facets -------------------------------------------------------------------------- */
 
 TEST(SmoothSurfaces, in_a_drum_of_facets_the_deepest_counts)
@@ -203,7 +270,7 @@ TEST(SmoothSurfaces, in_a_drum_of_facets_the_deepest_counts)
   const Touched wall = mesh("drum", drum(facets, 3.0, 4.0));
   RandomBodies random(32);
   ShapeContacts contacts;
-  for (int k = 0; k < 3000; k++) {
+  for (int k = 0; k < 1000; k++) {
     const Superellipsoid &a =
         particles()[k % 6];    // of the others flat sides reach several facets
     if (a.half_axes().z < 0.1) continue;
@@ -246,7 +313,9 @@ TEST(SmoothSurfaces, a_place_counts_once_where_curvatures_are_close)
   const double overlap = 1.0e-3;
   for (int k = 0; k <= 300; k++) {
     const double radius = 1.2 + 0.0005 * k, z = random.uniform(-1.0, 1.0);
-    if (std::abs(radius - 1.25) < 1.0e-4) continue;
+    // as seen from the axis, the lowest point of the shape is behind the wall
+    const bool is_flatter = radius + overlap > 1.25;
+    if (std::abs(radius + overlap - 1.25) < 1.0e-4) continue;
     const Touched drum = vessel("drum", std::make_shared<Frustum>(Vector{0, 0, 0}, Vector{0, 0, 1},
                                                                   radius, radius, 4.0, true)),
                   ball = vessel("ball", std::make_shared<Ball>(Vector{0, 0, 0}, radius, true));
@@ -254,19 +323,19 @@ TEST(SmoothSurfaces, a_place_counts_once_where_curvatures_are_close)
       const Eigen::Quaterniond turned = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * flat;
       ASSERT_TRUE(drum.touch(lens, Pose({radius - 0.2 + overlap, 0.0, z}, turned), contacts));
       // turned, one of two places is deeper
-      if (radius > 1.25 || turn == 0.0) {
-        ASSERT_EQ(contacts.points.size(), radius > 1.25 ? 1U : 2U) << radius << " " << turn;
+      if (is_flatter || turn == 0.0) {
+        ASSERT_EQ(contacts.points.size(), is_flatter ? 1U : 2U) << radius << " " << turn;
       }
-      if (turn == 0.0 && radius > 1.25) {
+      if (turn == 0.0 && is_flatter) {
         ASSERT_NEAR(contacts.points.front().overlap, overlap, 1.0e-15);
       }
-      if (turn == 0.0 && radius < 1.25) {
+      if (turn == 0.0 && !is_flatter) {
         ASSERT_NEAR(contacts.points[0].overlap, contacts.points[1].overlap, 1.0e-14) << radius;
         ASSERT_GT(contacts.points[0].overlap, overlap);
         ASSERT_NE(contacts.points[0].name, contacts.points[1].name);
       }
     }
-    if (radius > 1.25) {
+    if (is_flatter) {
       ASSERT_TRUE(ball.touch(lens, Pose({radius - 0.2 + overlap, 0.0, 0.0}, flat), contacts));
       ASSERT_EQ(contacts.points.size(), 1U) << radius;
       ASSERT_NEAR(contacts.points.front().overlap, overlap, 1.0e-14);
@@ -307,7 +376,7 @@ TEST(SmoothSurfaces, curved_inward_each_place_is_found)
   RandomBodies random(34);
   ShapeContacts contacts;
   int several = 0;
-  for (int k = 0; k < 900; k++) {
+  for (int k = 0; k < 360; k++) {
     const Superellipsoid &a = particles()[k % particles().size()];
     const double radius = random.uniform(0.7, 4.0), slope = k % 2 ? 0.0 : random.uniform(-0.4, 0.4);
     const Touched wall =
@@ -329,13 +398,13 @@ TEST(SmoothSurfaces, curved_inward_each_place_is_found)
       return moved;
     };
     const auto behind = [&](double distance) {
-      return places_around(a, at(distance), radius, slope, 120);
+      return places_around(a, at(distance), radius, slope, 60);
     };
     if (!behind(0.0).empty()) continue;    // does not fit
     for (int step = 0; step < 45; step++)
       (behind(0.5 * (low + high)).empty() ? low : high) = 0.5 * (low + high);
     pose = at(low + a.inscribed_radius() * random.decade(-9.0, -1.0));
-    const std::vector<double> expected = places_around(a, pose, radius, slope, 20000);
+    const std::vector<double> expected = places_around(a, pose, radius, slope, 5000);
     if (expected.empty() || expected.back() < 1.0e-13) continue;
     ASSERT_TRUE(wall.touch(a, pose, contacts)) << k << ": " << expected.back();
     std::vector<double> found;
@@ -347,7 +416,7 @@ TEST(SmoothSurfaces, curved_inward_each_place_is_found)
       ASSERT_NEAR(found[n], expected[n], 2.0e-14 * radius) << wall.name << ", " << k;
     several += found.size() > 1;
   }
-  EXPECT_GT(several, 20);
+  EXPECT_GT(several, 10);
 }
 
 /* ---- energy ----------------------------------------------------------------------------------- */
@@ -388,7 +457,7 @@ TEST(SmoothSurfaces, forces_are_minus_the_gradient_of_the_energy)
   for (const Touched &surface : surfaces) {
     RandomBodies random(35);
     int compared = 0, differ = 0;
-    for (int k = 0; k < 1500; k++) {
+    for (int k = 0; k < 500; k++) {
       const Superellipsoid &a = particles()[k % 6];
       const Vector way = random.direction();
       Pose pose({0, 0, 0}, random.orientation());
@@ -419,7 +488,7 @@ TEST(SmoothSurfaces, forces_are_minus_the_gradient_of_the_energy)
           else
             moved.position = pose.position + by * d;
           const Acting there = acting(surface, a, moved);
-          if (there.count != here.count || length(there.force - here.force) > 0.1 * deep)
+          if (there.count != here.count || length(there.force - here.force) > 0.01 * deep)
             return std::nan("");
           energy[sign] = there.energy;
         }
@@ -434,7 +503,7 @@ TEST(SmoothSurfaces, forces_are_minus_the_gradient_of_the_energy)
           differ += std::abs(slope - expected) > 2.0e-4 * deep;
         }
     }
-    EXPECT_GT(compared, 4000) << surface.name;
+    EXPECT_GT(compared, 1200) << surface.name;
     EXPECT_EQ(differ, 0) << surface.name << " of " << compared;
   }
 }
@@ -456,7 +525,7 @@ TEST(SmoothSurfaces, nearly_a_box_at_the_edge_of_a_mesh_counts_once)
     ASSERT_EQ(triangles.touch(block, pose, of_mesh), touches) << k;
     if (!touches) continue;
     ASSERT_EQ(of_mesh.points.size(), 1U) << k;
-    ASSERT_NEAR(of_mesh.points[0].overlap, of_box.points[0].overlap, 1.0e-14) << k;
+    ASSERT_NEAR(of_mesh.points[0].overlap, of_box.points[0].overlap, 4.0e-14) << k;
   }
 }
 
@@ -500,7 +569,7 @@ TEST(SmoothSurfaces, histories_stay_with_their_places)
   for (int step = 1; step <= 200; step++) {
     const double phase = 2.0 * pi * step / 100;
     std::vector<PointContact> points =
-        points_at(0.01 * std::sin(phase), 0.2 * std::sin(2.0 * phase));
+        points_at(0.01 * std::sin(phase), 0.02 * std::sin(2.0 * phase));
     ASSERT_EQ(points.size(), 2U) << step;
     continue_at_places(points.data(), points.size(), before.data(), before.size());
     for (const PointContact &point : points)

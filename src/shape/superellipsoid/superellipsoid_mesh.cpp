@@ -28,22 +28,17 @@ using MeshCorner = MeshFeatures::Corner;
 constexpr double at_border = 1.0e-9;    // sine, see superellipsoid_solids.cpp
 constexpr double at_joint = 2.0e-6;     // pieces of one edge may be bent so much where they meet
 
-/// A face, edge or corner that reaches into the shape.
+/// A face, edge or corner that reaches into the shape; of a face, all triangles of one plane.
 struct Candidate {
-  enum Kind {
-    OVER,    ///< a face below the lowest point, of which more must be seen to know that it is touched,
-    TOUCHED,    ///< which is touched,
-    BESIDE,     ///< which is touched, but is not below the lowest point: for want of others
-    OF_EDGE,
-    OF_CORNER
-  };
+  enum Kind { FACE, EDGE, CORNER };
   Found found;
   Kind kind;
   int triangle, plane;
   ContactParts parts;
   std::uint32_t surface;    ///< the second half of its name
+  bool is_over = false;     ///< of a face: the lowest point is, as seen along the normal,
+  bool is_cut = false;      ///< and the straight line from there to the center goes through it
   bool counts = false;
-  bool is_face() const { return kind < OF_EDGE; }
 };
 
 /// Which planes are in one place.
@@ -142,18 +137,18 @@ class WithMesh {
     const Vector normal = one.side * one.normal;
     const bool is_over = is_in(one.triangle, normal, below.lowest.place),
                is_cut = is_in(one.triangle, normal, below.crossing);
-    if (!is_over && !is_cut) return;
-    const auto kind = !is_over                                          ? Candidate::BESIDE
-                      : is_cut || touch.is_inside(below.lowest.other()) ? Candidate::TOUCHED
-                                                                        : Candidate::OVER;
-    for (Candidate &known : with.candidates)
-      if (known.plane == below.plane) {    // by another triangle
-        if (known.kind == Candidate::BESIDE) known.triangle = one.triangle;
-        if (known.kind != kind) known.kind = Candidate::TOUCHED;
-        return;
-      }
-    with.candidates.push_back({below.lowest, kind, one.triangle, below.plane, ContactParts::WHOLE,
-                               patch_of(one.triangle)});
+    auto &all = with.candidates;
+    auto face = std::find_if(all.rbegin(), all.rend(),
+                             [&](const Candidate &other) { return other.plane == below.plane; });
+    if (face == all.rend()) {
+      all.push_back({below.lowest, Candidate::FACE, one.triangle, below.plane, ContactParts::WHOLE,
+                     patch_of(one.triangle)});
+      face = all.rbegin();
+    }
+    if (is_over ? !face->is_over : is_cut && !face->is_over && !face->is_cut)
+      face->triangle = one.triangle;
+    face->is_over |= is_over;
+    face->is_cut |= is_cut;
   }
   std::uint32_t patch_of(int t) const
   {
@@ -171,33 +166,35 @@ class WithMesh {
     }
     return true;
   }
-  /* A face over which the lowest point is, but which the way to it from the center does not meet, is touched if one of
-     its edges is; or if that way meets the surface elsewhere: then both are one place. */
+  /* A face whose edges are touched is a part of that place. Another one counts if the lowest point is over it and it is
+     touched; or if it is all that is touched. */
   void settle_faces()
   {
     auto &all = with.candidates;
+    const auto &edges_of = with.edges_of;
+    bool is_found = false;
     for (Candidate &one : all) {
-      if (one.kind != Candidate::OVER) continue;
-      const auto &edges_of = with.edges_of;
-      if (std::find(edges_of.begin(), edges_of.end(), one.plane) != edges_of.end())
-        one.kind = Candidate::TOUCHED;
-      else
-        for (const NearTriangle &near : with.near)
-          if (surface.near_detail().is_between(near.part, center, one.found.place)) {
-            one.kind = Candidate::TOUCHED;
-            with.places.join(one.plane, surface.surface().plane_of(near.triangle));
-            break;
-          }
+      one.counts = one.kind != Candidate::FACE ||
+                   std::find(edges_of.begin(), edges_of.end(), one.plane) != edges_of.end() ||
+                   (one.is_over && is_touched(one));
+      is_found |= one.counts;
     }
-    const auto drop = [&all](Candidate::Kind kind) {
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [kind](const Candidate &one) { return one.kind == kind; }),
-                all.end());
-    };
-    drop(Candidate::OVER);
-    if (std::any_of(all.begin(), all.end(),
-                    [](const Candidate &one) { return one.kind != Candidate::BESIDE; }))
-      drop(Candidate::BESIDE);
+    all.erase(
+        std::remove_if(all.begin(), all.end(),
+                       [&](const Candidate &one) { return is_found ? !one.counts : !one.is_cut; }),
+        all.end());
+  }
+  /* The line from the center meets it; or a point of it is known that is in the shape; or the line meets the surface
+     elsewhere, and both are one place. */
+  bool is_touched(const Candidate &face)
+  {
+    if (face.is_cut || touch.is_inside(face.found.other())) return true;
+    for (const NearTriangle &near : with.near)
+      if (surface.near_detail().is_between(near.part, center, face.found.place)) {
+        with.places.join(face.plane, surface.surface().plane_of(near.triangle));
+        return true;
+      }
+    return false;
   }
 
   /* ---- edges and corners ---- */
@@ -222,7 +219,7 @@ class WithMesh {
     // that of two facets of a smooth patch is named by the patch, on which friction goes on
     const bool is_smooth =
         ridge.planes[1] >= 0 && patch_of(ridge.planes[0]) == patch_of(ridge.planes[1]);
-    with.candidates.push_back({line.deepest, Candidate::OF_EDGE, t, ridge.planes[0],
+    with.candidates.push_back({line.deepest, Candidate::EDGE, t, ridge.planes[0],
                                is_smooth ? ContactParts::WHOLE : ContactParts::EDGES,
                                is_smooth ? patch_of(t) : ridge.name});
   }
@@ -248,7 +245,7 @@ class WithMesh {
       is_smooth &= patch_of(triangle) == patch_of(t);
     });
     with.candidates.push_back(
-        {found, Candidate::OF_CORNER, t, plane,
+        {found, Candidate::CORNER, t, plane,
          is_smooth ? ContactParts::WHOLE : ContactParts::VERTEX_OF_B,
          is_smooth ? patch_of(t) : static_cast<std::uint32_t>(corner.vertex)});
   }
@@ -277,7 +274,7 @@ class WithMesh {
   /// Where the normal of an edge is that of a face but for rounding it is the face.
   double rank(const Candidate &one) const
   {
-    return one.is_face() ? one.found.overlap : one.found.overlap + rounding;
+    return one.kind == Candidate::FACE ? one.found.overlap : one.found.overlap + rounding;
   }
   void keep_one_of_each_place()
   {
@@ -301,14 +298,12 @@ class WithMesh {
   {
     auto &all = with.candidates;
     for (auto one = all.rbegin(); one != all.rend(); ++one) {
-      const bool is_known = std::any_of(all.rbegin(), one, [&](const Candidate &deeper) {
+      one->counts = std::none_of(all.rbegin(), one, [&](const Candidate &deeper) {
         return deeper.counts && deeper.parts == one->parts && deeper.surface == one->surface &&
-               deeper.is_face() == one->is_face() &&
+               (deeper.kind == Candidate::FACE) == (one->kind == Candidate::FACE) &&
                dot(one->found.normal, deeper.found.normal) > TriangleMesh::smooth_cosine;
       });
-      if (is_known) continue;
-      one->counts = true;
-      add_contact(*one);
+      if (one->counts) add_contact(*one);
     }
   }
   void add_contact(const Candidate &one)
