@@ -239,15 +239,26 @@ class WithMesh {
     });
     if (!is_of_corner || !acts(m, corner.outward)) return;
     const int plane = mesh.plane_of(t);
-    bool is_smooth = true;
-    features.visit_around(corner.vertex, [&](int triangle) {
-      with.places.join(plane, mesh.plane_of(triangle));
-      is_smooth &= patch_of(triangle) == patch_of(t);
-    });
+    features.visit_around(corner.vertex,
+                          [&](int triangle) { with.places.join(plane, mesh.plane_of(triangle)); });
+    const bool is_smooth = is_in_smooth_patch(corner.vertex, t);
     with.candidates.push_back(
         {found, Candidate::CORNER, t, plane,
          is_smooth ? ContactParts::WHOLE : ContactParts::VERTEX_OF_B,
          is_smooth ? patch_of(t) : static_cast<std::uint32_t>(corner.vertex)});
+  }
+  /// Inside of one, not at its border.
+  bool is_in_smooth_patch(int vertex, int t) const
+  {
+    bool is_smooth = true;
+    features.visit_around(vertex, [&](int triangle) {
+      is_smooth &= patch_of(triangle) == patch_of(t);
+      const int *const corner = surface.surface().corners(triangle).vertex;
+      for (int k = 0; k < 3; k++)
+        if (corner[k] == vertex || corner[(k + 1) % 3] == vertex)
+          is_smooth &= features.edge_kind(triangle, k) != EdgeKind::BOUNDARY;
+    });
+    return is_smooth;
   }
   /// A ridge is one from in front, a valley from behind: where that side acts, and the center is on it.
   bool may_act(const Ridge &ridge) const
