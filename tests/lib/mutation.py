@@ -200,10 +200,10 @@ def _damaged(random, data):
     return bytes(data)
 
 
-def stl_files(random, count):
+def stl_files(random, count, first=0):
     """The beginning of a file, the script that reads it, and the file."""
     line = "fix stone all large/body mesh mesh.stl contact hertz 4.0e6 5.0e3"
-    for n in range(count):
+    for n in range(first, first + count):
         triangles = tetrahedron()
         if n % 3 == 0:    # valid as a file, odd as a mesh
             corners = [corner for triangle in triangles for corner in triangle]
@@ -259,7 +259,7 @@ def verdict(script, ranks, files):
             with open(os.path.join(folder, name), "wb") as file:
                 file.write(data)
         try:
-            return _fault_of_numbers(run_lammps(script, np=ranks, cwd=folder, timeout=LIMIT).log)
+            return fault_of_numbers(run_lammps(script, np=ranks, cwd=folder, timeout=LIMIT).log)
         except AssertionError as problem:
             text = str(problem)
             if text.startswith("no end after"):
@@ -277,7 +277,7 @@ def _fault_of_error(text):
     return "" if any(len(message) > 10 for message in messages) else "no message: " + text[-600:]
 
 
-def _fault_of_numbers(log):
+def fault_of_numbers(log):
     if re.search(r"(?m)^\s*\d+ .*\b-?(nan|inf)\b", log) or any(
             not math.isfinite(value) for row in thermo(log) for value in row.values()):
         return "numbers that are none, without an error: " + log[-900:]
