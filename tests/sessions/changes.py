@@ -7,7 +7,7 @@ import bodies
 import laws
 from mutation import CRASHES
 from pool import CRASH, ERROR, HANG
-from quantities import duration, length, line, number, place, text, velocity
+from quantities import duration, length, line, number, place, text
 
 
 def fault_of_failure(outcome):
@@ -29,7 +29,7 @@ def read_restart(scene, name):
 def output(rng, scene, n):
     """Lines, behind the physics, that ask for something every few steps; it must not matter."""
     every, name = rng.choice((1, 2, 3, 7, 10)), f"o{n}"
-    fixes = [fix for fix, size in scene.vectors if size == 20]
+    fixes = [words[1] for words in scene.physics if words[0] == "fix" and "contact" in words]
     kinds = [contact_rows, contact_counts, stats, dissipation, stress, grid, dump_of_particles, vtk, averages, restarts, energies]
     return rng.choice(kinds)(rng, name, every, fixes, scene)
 
@@ -96,7 +96,8 @@ def lifecycle(rng, scene):
         made = rng.choice(COMMANDS)(rng, scene)
         if made:
             program += [*made, ("run", rng.choice((5, 15, 30)))]
-    return scene.but(program=tuple(program))
+    gone = {words[1] for words in program if words[0] == "unfix"}
+    return scene.but(program=tuple(program), vectors=tuple(vector for vector in scene.vectors if vector[0] not in gone))
 
 
 def _plain(scene):
@@ -136,11 +137,8 @@ def another_law(rng, scene):
 
 
 def body_gone(rng, scene):
-    fixes = [words[1] for words in scene.physics if words[0] == "fix" and str(words[2]).startswith("all ") and
-             ("large/body" in words[2] or "wall/gran" in words[2])]
-    seen = {fix for fix, _ in scene.vectors}
-    gone = [fix for fix in fixes if fix not in seen]
-    return [line("unfix", rng.choice(gone))] if gone else []
+    fixes = [words[1] for words in scene.physics if words[0] == "fix" and "contact" in words or "wall/gran" in text(words)]
+    return [line("unfix", rng.choice(fixes))] if len(fixes) > 1 else []
 
 
 def body_more(rng, scene):
@@ -161,9 +159,9 @@ def partner(rng, scene):
 
 
 def settings(rng, scene):
-    return [line(rng.choice(("neigh_modify exclude none", "group half id 1:3", "reset_timestep 0", "write_data written", "run 0",
+    return [line(rng.choice(("neigh_modify exclude none", "group half id 1:3", "write_data written", "run 0",
                              "write_dump all custom dumped id x y z", "run_style verlet", "comm_proxy auto", "info styles pair",
                              "thermo 3", "set group all omega 0 0 0")))]
 
 
-COMMANDS = delete, create, faster, displace, another_step, another_law, body_more, drag, partner, settings, settings
+COMMANDS = delete, create, body_gone, faster, displace, another_step, another_law, body_more, drag, partner, settings, settings

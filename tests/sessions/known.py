@@ -4,7 +4,9 @@
 import re
 
 # (relation, pattern of the fault, pattern of the input, what it is)
-KNOWN = []
+KNOWN = [
+    ("like_stock", "differs", r"rigid/small molecule\nfix fall all gravity", "gravity behind fix rigid/small"),
+]
 
 
 def known(relation, fault, sessions):

@@ -4,7 +4,6 @@ words, STL files, restart files, calls of a partner."""
 
 import functools
 import os
-import random
 import re
 
 import changes
@@ -173,6 +172,7 @@ def check(run, session):
 
 
 def _is_ours(text):
-    """Whether a crash is not in LAMMPS: the innermost frame that Open MPI shows which is of neither MPI nor the C library."""
-    frames = [line for line in re.findall(r"\[ *\d+\] (\S+)", text) if re.search(r"talus|lammps", line)]
-    return not frames or "talus" in frames[0]
+    """Whether a crash is not in LAMMPS: the innermost frame that Open MPI shows which is of one of the two libraries."""
+    libraries = [os.path.basename(path) for path in re.findall(r"\[ *\d+\] ([^\s(]+)", text)]
+    frames = [name for name in libraries if name.startswith(("liblammps", "libtalus", "talus"))]
+    return not frames or not frames[0].startswith("liblammps")

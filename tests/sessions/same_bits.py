@@ -132,7 +132,8 @@ def restart_elsewhere(rng, plan):
 
 def save_and_restore(rng, plan):
     n, steps = _first_run(plan)
-    if steps > 1:
+    stresses = any("stress/atom" in words for words in plan.before_run)    # not to be read before the next step
+    if steps > 1 and not stresses:
         first = rng.randint(0, steps - 1)
         more = rng.randint(1, 30)
         plan.program[n:n + 1] = [f"@advance {first}", "@save a", f"@advance {more}", "@restore a", f"@advance {steps - first}"]

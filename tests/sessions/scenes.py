@@ -5,7 +5,6 @@ import math
 
 import bodies
 import laws
-from laws import some
 from quantities import Rounding, along, direction, duration, length, line, number, place, rotated, spin, text, turned, velocity
 from scene import Grain, Scene
 
@@ -141,7 +140,8 @@ def _with_bodies(rng, found, physics, boundary, types, materials=False, moves=Tr
         physics += lines
         meshes += more
         traits |= marks
-        vectors.append((f"b{n}", 20))
+        if "moving" in marks:    # the forces of others are sums with rounding
+            vectors.append((f"b{n}", 20))
     if periodic:
         traits.add("periodic")
     return Scene(begin(rng, boundary) + tuple(start), box(found, boundary, types) + tuple(make), found, tuple(physics), _program(rng),
