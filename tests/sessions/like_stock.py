@@ -16,11 +16,13 @@ def draw(rng):
     while True:
         scene = scenes.any_scene(rng, (scenes.of_the_host,))
         if "wiggle" not in scene.traits:    # LAMMPS begins its time anew after a restart
-            return scene.but(program=(("run", rng.choice((1, STEPS))),)), rng.choice((1, 1, 1, 2))
+            scene = scene.but(program=(("run", rng.choice((1, STEPS))),))
+            return scene, 1 if segments(scene) == 1 else rng.choice((1, 1, 1, 2))
 
 
 def segments(scene):
-    """Signs of what rolling and twisting remember are not in files of LAMMPS, so that these go on from the beginning only."""
+    """Signs of what rolling and twisting remember are neither in files of LAMMPS nor right on several ranks of it, so that these go on
+    from the beginning only, on one rank."""
     pair = " ".join(words for words in scene.physical() if words.startswith("pair_coeff"))
     return 1 if "rolling" in pair or "twisting" in pair else SEGMENTS
 

@@ -37,6 +37,7 @@ class Session:
     words: tuple = ()
     files: dict = dataclasses.field(default_factory=dict)
     keep: tuple = ()
+    examines_numbers = False    # whether numbers in the log that are none are a fault
 
 
 @dataclasses.dataclass

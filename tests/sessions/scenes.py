@@ -124,7 +124,12 @@ def spheres(rng, periodic=False, moves=True):
     physics += neighbors(rng)
     fall = line("gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
     physics.append(line("fix step all nve/sphere/symplectic", rng.choice(("", "start half")).split(), rng.choice((fall, ()))))
-    return _with_bodies(rng, found, physics, _boundary(rng, periodic), types, normal is not None, moves)
+    boundary = _boundary(rng, periodic)
+    if periodic and rng.random() < 0.3:
+        k = boundary.split().index("p")
+        physics.append(line("fix squeeze all deform 1", "xyz"[k], "erate", number(rng.uniform(-0.5, 0.5), 0, 0, -1), "remap",
+                            rng.choice(("x", "x", "v"))))
+    return _with_bodies(rng, found, physics, boundary, types, normal is not None, moves)
 
 
 def _with_bodies(rng, found, physics, boundary, types, materials=False, moves=True, shapes=False, traits=(), columns=(), start=(),

@@ -6,6 +6,7 @@ CALLS = {"advance": "partner.advance({0})", "save": "{0} = partner.save()", "res
          "discard": "{0}.discard()", "set_up": "partner.set_up()", "close": "partner.close(); partner = Partner(lmp)",
          "put_forces": "partner.put_forces([{0}], [{rest}])", "put_drag": "partner.put_drag([{0}], [{1}], [{last}])",
          "put_state": "partner.body('{0}').put_state([{state}], {steps})", "watch": "partner.body('{0}').watch()",
+         "other": "other = Partner(lmp)", "other_forces": "other.put_forces([{0}], [{rest}])", "other_close": "other.close()",
          "load": "partner.body('{0}').load()"}
 
 

