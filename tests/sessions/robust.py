@@ -119,9 +119,10 @@ def _examples():
     return lines, sorted({word for line in lines for word in line.split()[1:]})
 
 
-def _of_script(script, files):
-    return Session([line for line in re.sub(r"&\s*\n\s*", " ", script).splitlines() if line.strip()],
-                   files={name: data if isinstance(data, bytes) else data.encode() for name, data in files.items()})
+def of_script(script, files):
+    session = Session([line for line in re.sub(r"&\s*\n\s*", " ", script).splitlines() if line.strip()], files=files)
+    session.examines_numbers = True
+    return session
 
 
 def words(rng):
@@ -129,17 +130,14 @@ def words(rng):
     lines, all_words = _examples()
     line = mutation.mutated(rng, rng.choice(lines), all_words)
     files = {name: mutation.text_stl(mutation.tetrahedron()) for name in ("drum.stl", "stone.stl")}
-    session = _of_script(mutation.PLACES[line.split()[0]](line), files)
-    session.examines_numbers = True
+    session = of_script(mutation.PLACES[line.split()[0]](line), files)
     session.ranks = rng.choice((1, 1, 1, 2))
     return session
 
 
 def stl(rng):
     (_, script, files), = mutation.stl_files(rng, 1, rng.randrange(3))
-    session = _of_script(script, files)
-    session.examines_numbers = True
-    return session
+    return of_script(script, files)
 
 
 # ---- restart files --------------------------------------------------------------------------------
