@@ -7,7 +7,7 @@ import bodies
 import laws
 from mutation import CRASHES
 from pool import CRASH, ERROR, HANG
-from quantities import duration, length, line, number, place, text
+from quantities import along, duration, length, line, number, place, text
 
 
 def fault_of_failure(outcome):
@@ -101,7 +101,7 @@ def lifecycle(rng, scene):
 
 
 def _plain(scene):
-    return not scene.traits & {"shapes", "clumps", "host"}
+    return not scene.traits & {"shapes", "clumps", "host", "order 2"}
 
 
 def delete(rng, scene):
@@ -118,6 +118,17 @@ def create(rng, scene):
             line("set group fresh diameter", length(0.9), "density", number(1, -3, 1, 0))]
 
 
+def pour(rng, scene):
+    """A stream from above, into what a box that is not periodic has over the grains."""
+    if not _plain(scene) or "periodic" in scene.traits:
+        return []
+    top = max(grain.place.values[2] for grain in scene.grains)
+    edges = ["0 1.5 0 1.5", along(2, top + rng.choice((0.3, 1.0))), along(2, top + 2.5)]
+    return [line("region mouth block", edges, "units box"),
+            line("fix stream all pour/rate", rng.choice((1, 5)), "1 mouth", rng.choice((20, 300)), "diameter uniform 0.3 0.5 density 1 seed 7",
+                 "velocity 0 0 -2")]
+
+
 def faster(rng, scene):
     return [line("velocity all set", *[number(rng.uniform(-1, 1), 1, 0, -1) for _ in "xyz"], "units box")]
 
@@ -131,7 +142,7 @@ def another_step(rng, scene):
 
 
 def another_law(rng, scene):
-    if scene.traits & {"host"} or "hertz/material" in text([word for words in scene.physics for word in words]):
+    if scene.traits & {"host", "order 2"} or "/material" in text([word for words in scene.physics for word in words]):
         return []
     return [line("pair_coeff 1 1", laws.law(rng, "shapes" in scene.traits, rng.choice(("hooke", "hertz"))))]
 
@@ -142,7 +153,7 @@ def body_gone(rng, scene):
 
 
 def body_more(rng, scene):
-    if "periodic" in scene.traits or scene.traits & {"host"}:
+    if scene.traits & {"periodic", "host", "order 2"}:
         return []
     kinds = (bodies.flat_for_shapes, bodies.beside) if "shapes" in scene.traits else (bodies.flat, bodies.beside)
     lines, meshes, _ = bodies.body(rng, bodies.Cluster(scene.grains), f"m{rng.randrange(10**6)}",
@@ -164,4 +175,4 @@ def settings(rng, scene):
                              "thermo 3", "set group all omega 0 0 0")))]
 
 
-COMMANDS = delete, create, body_gone, faster, displace, another_step, another_law, body_more, drag, partner, settings, settings
+COMMANDS = delete, create, pour, body_gone, faster, displace, another_step, another_law, body_more, drag, partner, settings, settings

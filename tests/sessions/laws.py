@@ -26,9 +26,12 @@ def _normal(rng, name):
         "hooke/material": (line(young, e, nu, some(rng, 0.5, 2.0, *SPEED)), None),
         "hertz/material": (line(young, e, nu), None),
         "flores/material": (line(young, e, nu, some(rng, 0.5, 2.0, *SPEED)), None),
+        "dmt": (line(young, some(rng, 5, 60, *RATE_BY_LENGTH), nu, some(rng, 0.5, 10, 0, 1, -2)), None),
+        "jkr": (line(young, some(rng, 5, 60, *RATE_BY_LENGTH), nu, some(rng, 0.5, 10, 0, 1, -2)), None),
     }[name]
 
 
+COHESIVE = "dmt", "jkr"
 NORMALS = "hooke", "hertz", "flores", "hooke/material", "hertz/material", "flores/material"
 MATERIALS = NORMALS[3:]
 
@@ -37,10 +40,11 @@ def _tangential(rng, normal, gt):
     mu = some(rng, 0.1, 0.7)
     if rng.random() < 0.12:
         return ()
-    if rng.random() < 0.2:
+    if rng.random() < 0.2 and normal not in COHESIVE:
         damping = some(rng, 5, 30, *gt) if gt else "NULL"
         return line("tangential dashpot", damping, mu)
-    kind = rng.choice(("multistep", "multistep", "multistep", "onestep", "linear_history", "mindlin", "linear_nohistory"))
+    kinds = ("multistep",) * 3 + ("onestep", "linear_history", "mindlin", "linear_nohistory")
+    kind = "mindlin" if normal in COHESIVE else rng.choice(kinds)
     xt = some(rng, 0.3, 1.2)
     if kind == "linear_nohistory":
         return line("tangential", kind, xt, mu)
@@ -69,15 +73,22 @@ def _resistance(rng, tangential):
 
 def law(rng, shapes=False, normal=None):
     """Words of any law; shapes: of those that particles with a shape may have."""
-    normal = normal or rng.choice(NORMALS)
+    normal = normal or rng.choice(NORMALS if shapes else NORMALS + COHESIVE)
     words, gt = _normal(rng, normal)
     tangential = _tangential(rng, normal, gt)
     more = () if shapes else _resistance(rng, tangential)
-    if rng.random() < 0.15:
-        more = line(more, "adhesion constant", some(rng, 1, 20, *FORCE))
-    if rng.random() < 0.3:
-        more = line(more, "limit_damping")
+    if normal not in COHESIVE:
+        if rng.random() < 0.15:
+            more = line(more, "adhesion constant", some(rng, 1, 20, *FORCE))
+        if rng.random() < 0.3:
+            more = line(more, "limit_damping")
     return line(normal, words, tangential, more)
+
+
+def of_second_order(rng, normal):
+    """One that the integrator with `order 2` takes."""
+    words, _ = _normal(rng, normal)
+    return line(normal, words, "tangential multistep NULL NULL", some(rng, 0.1, 0.7), "slider midpoint limit_damping")
 
 
 def elastic(rng, normal="hooke"):

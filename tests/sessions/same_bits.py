@@ -111,7 +111,7 @@ def division(rng, plan):
     n, steps = _first_run(plan)
     if steps > 1:
         first = rng.randint(1, steps - 1)
-        second = f"run {steps - first}" + rng.choice(("", "", " pre no", " post no"))
+        second = f"run {steps - first}" + rng.choice(("", "", " pre no", " post no", " every 3 NULL"))
         between = rng.choice(([], ["run 0"], ["write_data written"], ["write_restart written"]))
         plan.program[n:n + 1] = [f"run {first}", *([] if "pre" in second else between), second]
 

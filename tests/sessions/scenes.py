@@ -116,32 +116,42 @@ def spheres(rng, periodic=False, moves=True):
     """Of gran/penalty, with any laws and bodies."""
     types = rng.choice((1, 1, 2))
     found = grains(rng, rng.randint(6, 30), types, rng.choice(((0.9, 1.05), (0.8, 1.1), (0.4, 1.1))))
-    normal = rng.choice(laws.MATERIALS) if rng.random() < 0.4 else None
-    first = laws.law(rng, normal=normal)
-    physics = [line("pair_style gran/penalty"), line("pair_coeff * *", first)]
+    second = rng.random() < 0.15
+    normal = rng.choice(laws.MATERIALS + laws.COHESIVE) if rng.random() < 0.4 else None
+    normal = rng.choice(("hooke", "hertz")) if second else normal
+
+    def law(normal=normal):
+        return laws.of_second_order(rng, normal) if second else laws.law(rng, normal=normal)
+
+    physics = [line("pair_style gran/penalty"), line("pair_coeff * *", law())]
     if types == 2:
-        physics += [line("pair_coeff 1 2", laws.law(rng, normal=normal)), line("pair_coeff 2 2", laws.law(rng, normal=normal))]
+        physics += [line("pair_coeff 1 2", law()), line("pair_coeff 2 2", law())]
     physics += neighbors(rng)
     fall = line("gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
-    physics.append(line("fix step all nve/sphere/symplectic", rng.choice(("", "start half")).split(), rng.choice((fall, ()))))
+    order = "order 2" if second else rng.choice(("", "start half"))
+    physics.append(line("fix step all nve/sphere/symplectic", order.split(), rng.choice((fall, ()))))
     boundary = _boundary(rng, periodic)
     if periodic and rng.random() < 0.3:
         k = boundary.split().index("p")
         physics.append(line("fix squeeze all deform 1", "xyz"[k], "erate", number(rng.uniform(-0.5, 0.5), 0, 0, -1), "remap",
                             rng.choice(("x", "x", "v"))))
-    return _with_bodies(rng, found, physics, boundary, types, normal is not None, moves)
+    materials = normal in laws.MATERIALS + laws.COHESIVE
+
+    def contact():
+        return law(normal if materials or second else rng.choice(laws.NORMALS[:3]))
+
+    return _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=("order 2",) if second else ())
 
 
-def _with_bodies(rng, found, physics, boundary, types, materials=False, moves=True, shapes=False, traits=(), columns=(), start=(),
-                 make=(), kinds=None):
+def _with_bodies(rng, found, physics, boundary, types, contact, moves=True, traits=(), columns=(), start=(), kinds=None):
+    """contact: draws a law of a body."""
     cluster, meshes, traits, vectors = bodies.Cluster(found), [], set(traits), []
     periodic = "p" in boundary
     for n in range(rng.choice((0, 1, 1, 2, 3))):
-        contact = laws.law(rng, shapes, None if materials else rng.choice(laws.NORMALS[:3]))
         these = kinds or ((bodies.beside,) if periodic else (bodies.flat, bodies.flat, bodies.around, bodies.beside))
         if periodic and "mesh" in traits:
             break
-        lines, more, marks = bodies.body(rng, cluster, f"b{n}", contact, moves, these)
+        lines, more, marks = bodies.body(rng, cluster, f"b{n}", contact(), moves, these)
         physics += lines
         meshes += more
         traits |= marks
@@ -149,7 +159,7 @@ def _with_bodies(rng, found, physics, boundary, types, materials=False, moves=Tr
             vectors.append((f"b{n}", 20))
     if periodic:
         traits.add("periodic")
-    return Scene(begin(rng, boundary) + tuple(start), box(found, boundary, types) + tuple(make), found, tuple(physics), _program(rng),
+    return Scene(begin(rng, boundary) + tuple(start), box(found, boundary, types), found, tuple(physics), _program(rng),
                  tuple(meshes), tuple(columns), tuple(vectors), frozenset(traits))
 
 
@@ -168,8 +178,8 @@ def shaped(rng, periodic=False, moves=True):
     if rng.random() < 0.5:
         physics.append(line("fix fall all gravity/talus", number(gravity(rng)[0], 1, 0, -2), "vector", direction((0, 0, -1))))
     kinds = (bodies.flat_for_shapes, bodies.around, bodies.beside)
-    scene = _with_bodies(rng, found, physics, _boundary(rng, periodic), 2, False, moves, True, ("shapes",),
-                         [f"f_shapes[{n}]" for n in range(1, 5)], kinds=kinds)
+    scene = _with_bodies(rng, found, physics, _boundary(rng, periodic), 2, lambda: laws.law(rng, True, rng.choice(laws.NORMALS[:3])), moves,
+                         ("shapes",), [f"f_shapes[{n}]" for n in range(1, 5)], kinds=kinds)
     turns = () if drawn else tuple(line("fix_modify shapes orient", tag, turned(bodies.random_turn(rng)))
                                    for tag, grain in enumerate(found, start=1) if grain.type == 1)
     traits = scene.traits | ({"drawn"} if drawn else set())
@@ -183,8 +193,8 @@ def clumped(rng, periodic=False, moves=True):
                *neighbors(rng, (0.1, 0.3)), *MEMBERS_APART,
                line("fix step all rigid/small/symplectic molecule", rng.choice(("", "start half")).split(),
                     rng.choice(((), line("gravity", number(9, 1, 0, -2), "vector", direction(bodies.random_direction(rng))))))]
-    return _with_bodies(rng, found, physics, _boundary(rng, periodic), 1, False, moves, True, ("clumps",),
-                        start=(line("fix prop all property/atom mol ghost yes"),))
+    return _with_bodies(rng, found, physics, _boundary(rng, periodic), 1, lambda: laws.law(rng, normal=rng.choice(laws.NORMALS[:3])), moves,
+                        ("clumps",), start=(line("fix prop all property/atom mol ghost yes"),))
 
 
 def of_the_host(rng, periodic=False, moves=True):

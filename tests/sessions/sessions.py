@@ -61,7 +61,12 @@ class Judge:
 
     def __init__(self, pool, shrinking=SHRINKING):
         self.pool, self.shrinking = pool, shrinking
-        self.cases, self.known = collections.Counter(), collections.Counter()
+        self.cases, self.known, self.faults = collections.Counter(), collections.Counter(), collections.Counter()
+        self.begin = time.monotonic()
+
+    def summary(self):
+        return (f"{sum(self.cases.values())} cases {dict(self.cases)}, {sum(self.pool.kinds.values())} sessions of LAMMPS "
+                f"{dict(self.pool.kinds)} in {time.monotonic() - self.begin:.0f} s; faults {dict(self.faults)}; known {dict(self.known)}")
 
     def sure(self, session):
         """What crashes or hangs has to do so in a process of its own."""
@@ -78,6 +83,7 @@ class Judge:
         try:
             fault, sessions = relation.check(self.sure, *case)
         except Exception:
+            self.faults[name] += 1
             return f"{name} {seed}: the test itself failed\n{traceback.format_exc()}"
         if not fault:
             return ""
@@ -85,6 +91,7 @@ class Judge:
         if reason:
             self.known[reason] += 1
             return ""
+        self.faults[name] += 1
         case, fault = shrink(relation, self.sure, case, fault, self.shrinking)
         fault, sessions = relation.check(self.sure, *case)
         return f"== {name} {seed}: {fault}\n\n" + "\n".join(spelled(session) for session in sessions)
@@ -99,15 +106,9 @@ def rounds(first, names=None):
                     yield relation.__name__, n * share + k
 
 
-def judge_many(cases, jobs, judge, told, seconds=None):
+def judge_many(cases, jobs, judge, told):
     """Faults of all, each told as soon as it is found."""
-    faults, end = [], time.monotonic() + seconds if seconds else None
-
-    def one(case):
-        if end and time.monotonic() > end:
-            return ""
-        return judge.judge(*case)
-
+    faults = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as threads:
         waiting = set()
         for case in itertools.chain(cases, [None]):
@@ -117,7 +118,7 @@ def judge_many(cases, jobs, judge, told, seconds=None):
                     faults.append(fault)
                     told(fault)
             if case is not None:
-                waiting.add(threads.submit(one, case))
+                waiting.add(threads.submit(judge.judge, *case))
     return faults
 
 
@@ -131,21 +132,29 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="how many at a time")
     parser.add_argument("--shrink", type=float, default=SHRINKING, help="seconds for making a fault smaller")
     words = parser.parse_args()
-    begin = time.monotonic()
     with Pool() as pool:
         judge = Judge(pool, words.shrink)
         if words.seed is not None:
             cases = [(name, words.seed) for name in words.relation or RELATIONS]
         else:
             cases = rounds(words.first, words.relation)
-            cases = cases if words.endless else itertools.islice(cases, words.count)
+            cases = told_now_and_then(cases if words.endless else itertools.islice(cases, words.count), judge)
         try:
-            faults = judge_many(cases, words.jobs, judge, lambda fault: print(fault, flush=True))
+            judge_many(cases, words.jobs, judge, lambda fault: print(fault, flush=True))
         except KeyboardInterrupt:
-            faults = []
-        print(f"{sum(judge.cases.values())} cases, {sum(pool.kinds.values())} sessions of LAMMPS {dict(pool.kinds)} in {time.monotonic() - begin:.0f} s: "
-              f"{dict(judge.cases)}; {len(faults)} faults; known: {dict(judge.known)}")
-    return 1 if faults else 0
+            pass
+        print(judge.summary())
+    return 1 if judge.faults else 0
+
+
+def told_now_and_then(cases, judge, seconds=300):
+    """The same, and every few minutes how many it has been."""
+    last = time.monotonic()
+    for case in cases:
+        if time.monotonic() > last + seconds:
+            last = time.monotonic()
+            print(judge.summary(), flush=True)
+        yield case
 
 
 if __name__ == "__main__":
