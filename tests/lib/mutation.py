@@ -1,20 +1,16 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Commands, files and sessions that a user would not write, drawn at random but the same for the same seed.
+"""Commands and files that a user would not write, drawn at random but the same for the same seed.
 
 What must hold of every run: it ends, without a signal; an error is one message; what succeeds has only finite
 numbers in its output."""
 
-import concurrent.futures
 import glob
 import math
 import os
 import re
 import struct
-import tempfile
 
-from talus_testing import run_lammps, thermo
-
-LIMIT = 60.0    # seconds for one run of some steps
+from talus_testing import thermo
 
 # two types, eight layers of particles that touch, falling onto what a command adds
 SCENE = """units si
@@ -200,10 +196,10 @@ def _damaged(random, data):
     return bytes(data)
 
 
-def stl_files(random, count):
+def stl_files(random, count, first=0):
     """The beginning of a file, the script that reads it, and the file."""
     line = "fix stone all large/body mesh mesh.stl contact hertz 4.0e6 5.0e3"
-    for n in range(count):
+    for n in range(first, first + count):
         triangles = tetrahedron()
         if n % 3 == 0:    # valid as a file, odd as a mesh
             corners = [corner for triangle in triangles for corner in triangle]
@@ -214,79 +210,10 @@ def stl_files(random, count):
         yield repr(data[:60]), scene(command=line), {"mesh.stl": data}
 
 
-# ---- sessions ----------------------------------------------------------------------------------
-
-OPERATIONS = [
-    "run 5", "run 7", "run 3 pre no", "run 3 post no", "run 0", "run 6 every 2 NULL",
-    "write_restart session.restart", "clear\n{again}", "clear\nread_restart session.restart\n{styles}",
-    "unfix move\nfix move all nve/sphere", "unfix move\nfix move all nve/sphere/symplectic",
-    "pair_style none\n{pair}", "{pair}", "suffix talus", "suffix off",
-    "pair_style gran/hooke/history 2.0e5 NULL 50.0 NULL 0.5 1\npair_coeff * *",
-    "fix floor all large/body plane 0 0 0 0 0 1 contact hertz 4.0e6 5.0e3", "unfix floor",
-    "fix wall all wall/gran hertz/history 4.0e6 NULL 5.0e3 NULL 0.5 1 zplane 0.0 NULL", "unfix wall",
-    "compute account all penalty/stats\nthermo_style custom step atoms ke c_account[1] c_account[4]",
-    "thermo_style one\nuncompute account", "compute critical all timestep/gran", "uncompute critical",
-    "delete_atoms random fraction 0.3 yes all NULL 12345", "delete_atoms group all",
-    "create_atoms 2 random 5 7823 NULL overlap 1.0 maxtry 50", "reset_atoms id", "reset_timestep 0",
-    "set group all diameter 0.9", "set group grains type 2", "velocity all set 0 0 -3", "timestep 5e-5",
-    "displace_atoms all move 0.01 0 0.02", "change_box all x final -5 5 remap", "change_box all boundary p p f",
-    "neigh_modify exclude type 1 2", "neigh_modify exclude none", "neighbor 0.1 bin", "neigh_modify every 3 delay 0",
-    "run_style verlet", "run_style verlet/stock", "run_style verlet/proxy overlap yes", "comm_proxy yes", "comm_proxy no",
-    "comm_modify mode single cutoff 2.5", "group grains delete", "fix balance all balance 3 1.01 shift xyz 3 1.1",
-    "unfix balance", "dump see all custom 2 dump.see id x y z fx fy fz\nrun 0", "undump see", "plugin list",
-    "rerun dump.see first 0 every 2 dump x y z", "minimize 1e-4 1e-4 5 5", "info styles pair",
-    "write_data session.data", "write_dump all custom dump.once id radius", "fix grav all gravity 9.81 vector 0 0 -1",
-    "unfix grav", "fix hold all freeze", "unfix hold", "region grains delete", "shell true", "jump SELF end",
-]
-
-
-def sessions(random, count, length):
-    """Scripts of some operations each."""
-    for _ in range(count):
-        chosen = [random.choice(OPERATIONS) for _ in range(length)]
-        again = scene(end="")
-        styles = f"{PAIR}\nfix move all nve/sphere\ntimestep 1e-4\nthermo 5"
-        text = "\n".join(chosen).replace("{again}", again).replace("{styles}", styles).replace("{pair}", PAIR)
-        yield chosen, scene(end="run 4\n" + text + "\nrun 4\nlabel end", suffix=random.choice(("", "suffix talus\n"))), {}
-
-
 # ---- what must hold ----------------------------------------------------------------------------
 
-def verdict(script, ranks, files):
-    """Empty if the run is as it must be, else what is wrong with it."""
-    with tempfile.TemporaryDirectory(prefix="talus-mutation-") as folder:
-        for name, data in files.items():
-            with open(os.path.join(folder, name), "wb") as file:
-                file.write(data)
-        try:
-            return _fault_of_numbers(run_lammps(script, np=ranks, cwd=folder, timeout=LIMIT).log)
-        except AssertionError as problem:
-            text = str(problem)
-            if text.startswith("no end after"):
-                return text.splitlines()[0]
-            return _fault_of_error(text)
-
-
-def _fault_of_error(text):
-    code = re.match(r"return code (-?\d+)", text)
-    if not code or code.group(1) != "1":
-        return text.splitlines()[0] + ": " + text[-600:]
-    if re.search(CRASHES, text):
-        return "crash: " + text[-600:]
-    messages = set(re.findall(r"(?m)^ERROR[^:\n]*:? ?(.*)$", text))
-    return "" if any(len(message) > 10 for message in messages) else "no message: " + text[-600:]
-
-
-def _fault_of_numbers(log):
+def fault_of_numbers(log):
     if re.search(r"(?m)^\s*\d+ .*\b-?(nan|inf)\b", log) or any(
             not math.isfinite(value) for row in thermo(log) for value in row.values()):
         return "numbers that are none, without an error: " + log[-900:]
     return ""
-
-
-def judge(cases, ranks_of, workers=2):
-    """Runs each (what, script, files); [(what, fault)] of those with a fault."""
-    cases = list(cases)
-    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
-        faults = pool.map(lambda n: verdict(cases[n][1], ranks_of(n), cases[n][2]), range(len(cases)))
-    return [(case[0], fault) for case, fault in zip(cases, faults) if fault]

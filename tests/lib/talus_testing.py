@@ -49,7 +49,7 @@ PLUGIN = _required_file("TALUS_PLUGIN")
 MPIEXEC = os.environ.get("TALUS_MPIEXEC", "mpiexec")
 
 
-def _environment(extra):
+def environment(extra):
     env = dict(os.environ)
     env.setdefault("LAMMPS_PLUGIN_PATH", os.path.dirname(PLUGIN))
     env.setdefault("OMP_NUM_THREADS", "1")
@@ -79,7 +79,7 @@ def _processes_of_session(session):
     return found
 
 
-def _end(process):
+def end_process(process):
     """End a launcher and everything it started, which may have left its process group."""
     try:
         os.killpg(process.pid, signal.SIGTERM)
@@ -114,7 +114,7 @@ def _lock_another_place(folder, held):
 
 
 @contextlib.contextmanager
-def _cores(count):
+def cores_held(count):
     """Hold places for that many ranks and threads.  Several hold one more, and never all: a rank spins while it waits for one
     that has no core, so on two cores no two runs of several ranks go side by side."""
     wanted = count if count == 1 else min(count, CORES) + 1
@@ -135,7 +135,7 @@ def _cores(count):
 
 
 def _launch(command, cwd, env, timeout, cores):
-    with _cores(cores):
+    with cores_held(cores):
         return _run_to_end(command, cwd, env, timeout)
 
 
@@ -153,7 +153,7 @@ def _run_to_end(command, cwd, env, timeout):
         try:
             returncode = process.wait(timeout=timeout)
         except BaseException as problem:
-            _end(process)
+            end_process(process)
             if isinstance(problem, subprocess.TimeoutExpired):
                 raise AssertionError(f"no end after {timeout} s: {' '.join(command)}") from None
             raise
@@ -190,7 +190,7 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
         command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
     command += [str(word) for word in arguments]
 
-    env = _environment(env)
+    env = environment(env)
     cores = 1 if expect_error else np * _threads(env)    # the start of several ranks mostly waits, and that is all there is
     returncode, output = _launch(command, cwd, env, timeout * SLOWER, cores)
     log = ""
@@ -229,7 +229,7 @@ def run_program(path, np=1, arguments=(), cwd=None, env=None, timeout=DEFAULT_TI
     """Run a program of ours on np ranks; return a Result without a log. A failure is an error."""
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
     command += [path] + [str(word) for word in arguments]
-    env = _environment(env)
+    env = environment(env)
     returncode, output = _launch(command, cwd, env, timeout * SLOWER, np * _threads(env))
     if returncode != 0:
         raise AssertionError(f"return code {returncode}: {' '.join(command)}\n{output[-3000:]}")

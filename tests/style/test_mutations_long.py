@@ -11,7 +11,7 @@ import test_mutations
 
 
 class ManyMutations(test_mutations.Mutations):
-    seed, lines, files, sessions = int(os.environ.get("TALUS_SEED", "7")), 1500, 400, 400
+    seed, lines, files = int(os.environ.get("TALUS_SEED", "7")), 1500, 400
 
 
 del test_mutations.Mutations

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -106,6 +107,26 @@ TEST(Primitives, BoxFromOutside)
   expect_contact(f.contact[0], {0, 1, 0}, 0.5);
   EXPECT_EQ(contacts_of(box, {1.0, 2.0, 3.0}, 0.3).count, 0);    // deeper than its radius
   EXPECT_EQ(contacts_of(box, {2.3, 4.4, 1.0}, 0.499).count, 0);
+}
+
+/// Memory is set aside for so many: also where a sphere is wider than what holds it.
+TEST(Primitives, NoMoreContactsThanTold)
+{
+  const V c{0.1, -0.2, 0.3}, axis{0.2, 0.3, 0.9};
+  const Box box(c, {1.6, 1.6, 0.8}, true), narrow(c, {0.8, 0.8, 0.8}, true);
+  const Frustum can(c, axis, 0.4, 0.4, 0.8, true), cone(c, axis, 0.2, 0.6, 0.8, true);
+  int most_of_narrow = 0;
+  for (const LargeBodyShape *shape :
+       {(const LargeBodyShape *) &box, (const LargeBodyShape *) &narrow,
+        (const LargeBodyShape *) &can, (const LargeBodyShape *) &cone}) {
+    RandomSource random(7);
+    for (int n = 0; n < 2000; n++) {
+      const Found f = contacts_of(*shape, c + random_point(random, 0.5), random.uniform(0.3, 1.2));
+      ASSERT_LE(f.count, shape->most_contacts());
+      if (shape == &narrow) most_of_narrow = std::max(most_of_narrow, f.count);
+    }
+  }
+  EXPECT_EQ(most_of_narrow, 6);
 }
 
 TEST(Primitives, BoxFromInside)

@@ -11,8 +11,8 @@ namespace Talus {
 ///
 /// Outside: a sphere touches the nearest point of the box; the normal turns continuously around
 /// edges and corners. A center inside is pushed out through the nearest face, up to one radius
-/// deep. Inside: a sphere touches every face that it reaches, so up to three in a corner, up to a
-/// center one radius behind a face.
+/// deep. Inside: a sphere touches every face that it reaches, so up to three in a corner and all six
+/// of a box that is narrower than it, up to a center one radius behind a face.
 class Box : public LargeBodyShape {
  public:
   /// `edges`: the three lengths, > 0.
@@ -23,7 +23,7 @@ class Box : public LargeBodyShape {
   double distance_bound(const Vector3<double> &center) const override;
   Vector3<double> reference_point() const override { return middle; }
   double extent_from(const Vector3<double> &point) const override;
-  int most_contacts() const override { return inside ? 3 : 1; }
+  int most_contacts() const override { return inside ? 6 : 1; }
   int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                     SurfaceContact *found) const override;
   void tessellate(const Eigen::AlignedBox3d &visible,

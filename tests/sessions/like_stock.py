@@ -1,0 +1,61 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Relation: with the suffix a script of LAMMPS gives what it gives without, to rounding. After every few steps the accelerated run
+starts anew from the state of the stock one, which its restart file tells, so that chaos has no say."""
+
+import changes
+import scenes
+from closeness import compare
+from pool import OK, Session
+
+STEPS = 6
+SEGMENTS = 4
+POSITION, RELATIVE = 1e-11, 1e-8    # of a diameter; of the largest value of a column
+
+
+def draw(rng):
+    while True:
+        scene = scenes.any_scene(rng, (scenes.of_the_host,))
+        if "wiggle" not in scene.traits:    # LAMMPS begins its time anew after a restart
+            scene = scene.but(program=(("run", rng.choice((1, STEPS))),))
+            return scene, 1 if segments(scene) == 1 else rng.choice((1, 1, 1, 2))
+
+
+def segments(scene):
+    """Signs of what rolling and twisting remember are neither in files of LAMMPS nor right on several ranks of it, so that these go on
+    from the beginning only, on one rank."""
+    pair = " ".join(words for words in scene.physical() if words.startswith("pair_coeff"))
+    return 1 if "rolling" in pair or "twisting" in pair else SEGMENTS
+
+
+def stock(scene, ranks):
+    lines = scene.beginning() + scene.physical()
+    for n in range(SEGMENTS):
+        lines += [*scene.steps(), *scene.seen(str(n)), f"write_restart half.{n}"]
+    return Session(lines, ranks, files=scene.files(), keep=tuple(f"half.{n}" for n in range(SEGMENTS)))
+
+
+def accelerated(scene, ranks, n, restarts):
+    """From the state of the stock run, which is that of its restart file; the first one from the beginning."""
+    if n == 0:
+        begin = scene.beginning()
+    else:
+        start = [words for words in scene.beginning()[:len(scene.start)] if not words.startswith(("boundary", "fix"))]
+        begin = [*start, *changes.read_restart(scene, f"half.{n - 1}")]
+    lines = [*begin, *scene.physical(), *scene.steps(), *scene.seen(str(n))]
+    return Session(lines, ranks, words=scene.words, files={**scene.files(), **restarts})
+
+
+def check(run, scene, ranks):
+    plain = stock(scene, ranks)
+    expected = run(plain)
+    if expected.kind != OK:    # LAMMPS itself refuses the scene, or cannot make it
+        return "", [plain]
+    for n in range(segments(scene)):
+        talus = accelerated(scene, ranks, n, expected.kept)
+        found = run(talus)
+        if found.kind != OK:
+            return changes.fault_of_failure(found) or f"refused: {found.text}", [plain, talus]
+        difference = compare(expected.seen[f"seen.{n}"], found.seen[f"seen.{n}"], POSITION, RELATIVE)
+        if difference:
+            return f"differs from stock: segment {n}: {difference}", [plain, talus]
+    return "", [plain, talus]

@@ -1,0 +1,186 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Relation: one trajectory. Outputs, ranks, threads, grids, sorting, and in boxes that are not periodic also the skin, rebuilds,
+division into runs and restarts leave its bits as they are."""
+
+import dataclasses
+import random
+
+import changes
+import scenes
+from pool import OK, Session
+from quantities import text
+from scene import not_finite, same_bits
+
+
+@dataclasses.dataclass
+class Plan:
+    """How a scene is run: what the variations below change."""
+    scene: object
+    ranks: int = 1
+    threads: int = 1
+    grid: str = ""                                               # of processors
+    beginning: list = dataclasses.field(default_factory=list)    # after the start: settings
+    before_run: list = dataclasses.field(default_factory=list)
+    program: list = dataclasses.field(default_factory=list)
+    resume: tuple = ()    # (steps, ranks) that another process makes first
+
+    def session(self):
+        """Of all that is made in one process."""
+        scene = self.scene
+        start = [text(words) for words in scene.start]
+        lines = [*start, *self.settings(), *scene.beginning()[len(start):], *scene.physical(), *self.before_run, *self.program,
+                 *scene.seen("end")]
+        return Session(lines, self.ranks, self.threads, scene.words, scene.files())
+
+    def settings(self):
+        return [*([self.grid] if self.grid else []), *self.beginning]
+
+    def again(self):
+        """From a restart file up to the run."""
+        start = [text(words) for words in self.scene.start if not text(words).startswith(("boundary", "fix"))]
+        return [*start, *self.settings(), *changes.read_restart(self.scene, "half"), *self.scene.physical(), *self.before_run]
+
+    def sessions(self):
+        """One, or two if another process makes the beginning."""
+        if not self.resume:
+            return [self.session()]
+        n, steps = _first_run(self)
+        first, ranks = self.resume
+        program = self.program
+        writer = dataclasses.replace(self, ranks=ranks, grid="", program=[*program[:n], f"run {first}", "write_restart half"]).session()
+        writer.keep = ("half",)
+        reader = Session([*self.again(), f"run {steps - first}", *program[n + 1:], *self.scene.seen("end")], self.ranks, self.threads,
+                         self.scene.words, self.scene.files())
+        return [writer, reader]
+
+
+def plan_of(scene):
+    return Plan(scene, program=scene.steps())
+
+
+# ---- variations: each changes a plan; periodic says whether it holds in periodic boxes ------------
+
+def ranks(rng, plan):
+    plan.ranks = rng.choice((2, 2, 2, 4))
+    if rng.random() < 0.5:
+        plan.grid = "processors " + rng.choice({2: ("2 1 1", "1 2 1", "1 1 2"), 4: ("4 1 1", "1 2 2", "2 1 2")}[plan.ranks])
+
+
+def threads(rng, plan):
+    plan.threads = 2
+    plan.beginning.append("package omp 2")
+
+
+def sorting(rng, plan):
+    plan.beginning.append(rng.choice(("atom_modify sort 0 0", "atom_modify sort 1 0.7", "atom_modify sort 7 0")))
+
+
+def newton(rng, plan):
+    if "host" not in plan.scene.traits:
+        plan.beginning.append("newton on")
+
+
+def exchange(rng, plan):
+    plan.before_run.append(rng.choice(("comm_proxy no", "comm_proxy yes", "run_style verlet/stock", "run_style verlet/proxy overlap yes",
+                                       "run_style verlet/proxy overlap no", "run_style verlet", "comm_style tiled",
+                                       "comm_modify cutoff 2.5", "comm_modify cutoff 3.5")))
+
+
+def outputs(rng, plan):
+    scene = plan.scene
+    for n in range(rng.choice((1, 1, 2, 3))):
+        plan.before_run += changes.output(rng, scene, n)
+
+
+def neighbors(rng, plan):
+    skins = "neighbor 0.02 bin", "neighbor 0.2 bin", "neighbor 0.5 bin", "neighbor 0.3 nsq", "neigh_modify every 1 delay 0 check no"
+    seldom = "neigh_modify every 3 delay 0 check no", "neigh_modify delay 2 every 2"
+    none = any(words.startswith("neighbor 0.0 ") for words in plan.scene.physical())
+    plan.before_run.append(rng.choice(skins if none else skins + seldom))
+
+
+def _first_run(plan):
+    """Place and length of the first run in the program."""
+    for n, step in enumerate(plan.program):
+        if step.startswith("run ") and len(step.split()) == 2:
+            return n, int(step.split()[1])
+    return None, 0
+
+
+def division(rng, plan):
+    n, steps = _first_run(plan)
+    if steps > 1:
+        first = rng.randint(1, steps - 1)
+        second = f"run {steps - first}" + rng.choice(("", "", " pre no", " post no", " every 3 NULL"))
+        between = rng.choice(([], ["run 0"], ["write_data written"], ["write_restart written"]))
+        plan.program[n:n + 1] = [f"run {first}", *([] if "pre" in second else between), second]
+
+
+def restart(rng, plan):
+    n, steps = _first_run(plan)
+    if steps > 1:
+        first = rng.randint(1, steps - 1)
+        plan.program[n:n + 1] = [f"run {first}", "write_restart half", "clear", *plan.again(), f"run {steps - first}"]
+
+
+def restart_elsewhere(rng, plan):
+    """Another process with another number of ranks makes the beginning."""
+    n, steps = _first_run(plan)
+    if steps > 1:
+        plan.resume = rng.randint(1, steps - 1), rng.choice((1, 1, 2))
+
+
+def save_and_restore(rng, plan):
+    n, steps = _first_run(plan)
+    stresses = any("stress/atom" in words for words in plan.before_run)    # not to be read before the next step
+    if steps > 1 and not stresses:
+        first = rng.randint(0, steps - 1)
+        more = rng.randint(1, 30)
+        plan.program[n:n + 1] = [f"@advance {first}", "@save a", f"@advance {more}", "@restore a", f"@advance {steps - first}"]
+
+
+def windows(rng, plan):
+    """A partner advances, now and then a step of none."""
+    n, steps = _first_run(plan)
+    if steps:
+        cuts = sorted(rng.randint(0, steps) for _ in range(rng.randint(1, 4)))
+        plan.program[n:n + 1] = [f"@advance {b - a}" for a, b in zip((0, *cuts), (*cuts, steps))]
+
+
+SETTINGS = ranks, ranks, threads, sorting, newton, exchange, outputs, outputs
+PROGRAMS = save_and_restore, windows, division, restart, restart_elsewhere    # one of them at most, behind the settings
+
+
+def draw(rng):
+    """A scene, and names of variations with their seeds."""
+    scene = changes.lifecycle(rng, scenes.any_scene(rng))
+    periodic = "periodic" in scene.traits
+    divisible = not periodic and "host" not in scene.traits    # fix nve/sphere ends a step with forces that a set-up has not
+    settings = SETTINGS if periodic else (*SETTINGS, neighbors)
+    chosen = list(dict.fromkeys(rng.choices(settings, k=rng.choice((0, 1, 1, 2, 3)))))
+    if not chosen or rng.random() < 0.4:
+        chosen.append(rng.choice(PROGRAMS if divisible else PROGRAMS[:2]))
+    return scene, tuple((variation.__name__, rng.randrange(10**6)) for variation in chosen)
+
+
+def check(run, scene, chosen):
+    """The fault, or empty; sessions that show it."""
+    plain, plan = plan_of(scene).session(), plan_of(scene)
+    for name, seed in chosen:
+        globals()[name](random.Random(seed), plan)
+    expected = run(plain)
+    if expected.kind != OK:
+        return changes.fault_of_failure(expected), [plain]
+    if not_finite(expected.seen):
+        return "", [plain]
+    *earlier, varied = plan.sessions()
+    for session in earlier:
+        found = run(session)
+        if found.kind != OK:
+            return changes.fault_of_failure(found) or f"refused: {found.text}", [plain, session]
+        varied.files.update(found.kept)
+    found = run(varied)
+    if found.kind != OK:
+        return changes.fault_of_failure(found) or f"refused: {found.text}", [plain, *earlier, varied]
+    difference = same_bits(expected.seen, found.seen)
+    return f"other bits: {difference}" if difference else "", [plain, *earlier, varied]

