@@ -169,8 +169,8 @@ class Warned(SceneCase):
 
     def test_wrong_side(self):
         """A center behind the surface: the message asks for the normal, or the side, and for a stiffness only if it went through."""
-        falls = [Sphere((0, 0, 0.7), (0, 0, -3.0), id=4), Sphere((0, 4, 4), id=9)]
-        lies = [Sphere((0, 0, 0.45), id=4), Sphere((0, 4, 4), id=9)]
+        falls = [Sphere((0, 0, 0.7), (0, 0, -3.0), id=4), Sphere((0, 0, 4), id=9)]
+        lies = [Sphere((0, 0, 0.45), id=4), Sphere((0, 0, 4), id=9)]
         text = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step \d+( or since the last rebuild)?; " \
             r"its center is behind the surface: if particles belong on that side, use (.*); otherwise (.*)"
         normal, side = "the normal the other way round, or 'two-sided'", "the other one of 'inside' and 'outside'"
