@@ -132,7 +132,7 @@ class Fields(SceneCase):
         cells, width = (20, 24, 21), 0.25
         script = self.scene(field("fraction number", cells, width) + output(cells=cells), steps=0)
         first = None
-        for np in 1, 2, 4:
+        for np in 1, 2:
             self.run_lammps(script, np=np)
             rows, = read_grid(self.path("fields"))
             first = first or rows
