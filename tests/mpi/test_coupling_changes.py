@@ -58,6 +58,8 @@ def end():
     if rank == 0:
         with open("said", "w") as file:
             json.dump(said, file)
+    lmp.close()
+    lmp.finalize()
 """.replace("SCENE", repr(SCENE))
 CHANGES = HEAD + """
 CASES = {
@@ -184,6 +186,9 @@ r = Partner(lmp)    # those of all ranks are back in step
 found.append(refusal(r.advance, 1))
 with open(f"said{rank}", "w") as file:
     json.dump(found, file)
+r.close()
+lmp.close()
+lmp.finalize()
 """
 
 
