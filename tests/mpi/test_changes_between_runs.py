@@ -73,7 +73,7 @@ CASES = {
     "region": ("region more sphere 0 0 0 1", ON),
     "region gone": ("region around delete", "region around has been deleted"),
     "region in other words": ("region around delete\nregion around block -3 3 -3 3 -3 3.5", "region around has been defined anew"),
-    "region in the same words": ("region around delete\nregion around block -3 3 -3 3 -3 3", "a region has been defined anew"),
+    "region in the same words": ("region around delete\nregion around block -3 3 -3 3 -3 3", "region around has been defined anew"),
     "variable": ("variable more equal 2", ON),
     "variable anew": ("variable field equal 0.2", ON),
     "variable gone": ("variable before delete", "variable before, or one that was defined before it, has been deleted"),
@@ -83,8 +83,8 @@ CASES = {
     "run style in other words": ("run_style verlet/proxy overlap no", "the run style is another one"),
     "tiled": ("comm_style tiled", "comm_style or comm_proxy has been changed"),
     "tiled and back": ("comm_style tiled\ncomm_style brick", "comm_style or comm_proxy has been changed"),
-    "particles": ("create_atoms 1 single 0 0 2", "particles have been added, deleted"),
-    "particles gone": ("group few id 1:4\ndelete_atoms group few compress no", "particles have been added, deleted"),
+    "particles": ("create_atoms 1 single 0 0 2", "particles have been added or deleted"),
+    "particles gone": ("group few id 1:4\ndelete_atoms group few compress no", "particles have been added or deleted"),
     "balance": ("balance 1.0 shift x 10 1.0", None),    # on several ranks particles go to others
     "balance by rcb": ("comm_style tiled\nbalance 1.0 rcb", "comm_style or comm_proxy has been changed"),
     "restart file": ("write_restart there", ON),
@@ -149,8 +149,11 @@ class ChangesBetweenRuns(CoupledCase):
                     self.assertIn("Run: leave 'pre no' out: " + (says or "particles")[:60], text)    # of which Python gets 100 letters
                 else:
                     self.assertEqual(text, "")
-                    stem = self.path(f"{run}.{name.replace(' ', '_')}.")
-                    self.assertLess(max_difference(read_dump(stem + "no")[0], read_dump(stem + "yes")[0], COLUMNS), 1e-9)
+                    if name in ("velocity", "timestep", "variable anew"):
+                        continue
+                    there = self.path(f"{run}.{{}}.no")
+                    self.assertLess(max_difference(read_dump(there.format(name.replace(" ", "_")))[0],
+                                                   read_dump(there.format("nothing"))[0], COLUMNS), 1e-9)
                 self.assertIn("egion around" if name == "region gone" else "", later)
                 self.assertEqual(later == "", name != "region gone", later)
 

@@ -26,10 +26,9 @@ create_atoms 1 region r
 set group all diameter 1.0
 timestep 5e-4
 suffix talus
-pair_style gran/hertz/history 1e5 NULL 50 NULL 0.5 1
-pair_coeff * *
-fix s all nve/sphere
-fix gr all gravity 1 vector 0 0 -1
+pair_style gran/penalty
+pair_coeff * * hertz 1e5 50 tangential multistep NULL NULL 0.5
+fix s all nve/sphere/symplectic gravity 1 vector 0 0 -1
 fix b all wall/gran/region hertz/history 1e5 NULL 50 NULL 0.5 1 region reg
 """
 HEAD = """
