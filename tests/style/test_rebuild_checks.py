@@ -133,12 +133,13 @@ class RebuildChecks(SceneCase):
         self.assertNotIn(UNFORESEEN, log)
 
     def test_acceleration(self):
-        """From rest to beyond half of the skin in a step."""
-        log, _, dangerous = self.run_scene("every 1 delay 0 check yes", [Sphere((-3.0, 0, 0))],
-                                           run="fix push all addforce 150000.0 0 0\nrun 3")
-        self.assertGreater(dangerous, 0)
-        self.assertIn(UNFORESEEN, log)
-        self.assertNotIn(DELAYED, log)
+        """From a small speed to beyond half of the skin in a step; from rest nothing is taken for granted."""
+        for speed, late in (1e-3, True), (0.0, False):
+            log, _, dangerous = self.run_scene("every 1 delay 0 check yes", [Sphere((-3.0, 0, 0), (speed, 0, 0))],
+                                               run="fix push all addforce 150000.0 0 0\nrun 3")
+            self.assertEqual(dangerous > 0, late)
+            self.assertEqual(UNFORESEEN in log, late)
+            self.assertNotIn(DELAYED, log)
 
 
 if __name__ == "__main__":
