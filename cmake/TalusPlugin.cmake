@@ -39,10 +39,14 @@ endfunction()
 # The plugin is two files. LAMMPS opens plugins with all symbols bound at once, so one that uses
 # C++ symbols which another host lacks fails before its first line runs, with a mangled name as
 # the only hint. talusplugin.so therefore uses no symbol of LAMMPS at link time: it asks the host
-# for its version, and only then opens talusstyles.so, which holds everything else.
-talus_add_module(talusplugin "lammpsplugin_init; talus_*" src/talusplugin.cpp)
+# for its version, and only then opens talusstyles.so, which holds everything else. It also tells
+# whether the processor has the instructions of talusstyles.so, and so has none of them itself.
+add_library(talus_needs OBJECT src/needed_instructions.cpp)
+set_target_properties(talus_needs PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_link_libraries(talus_needs PRIVATE talus_flags)
+talus_add_module(talusplugin "lammpsplugin_init; talus_*" src/talusplugin.cpp $<TARGET_OBJECTS:talus_needs>)
 target_include_directories(talusplugin PRIVATE "${PROJECT_SOURCE_DIR}/src")
-target_link_libraries(talusplugin PRIVATE lammps_host talus_flags ${CMAKE_DL_LIBS})
+target_link_libraries(talusplugin PRIVATE lammps_host talus_common_flags ${CMAKE_DL_LIBS})
 # What programs link that share a simulation (talus.h): the same file, so that it is there once.
 add_custom_command(TARGET talusplugin POST_BUILD
   COMMAND ${CMAKE_COMMAND} -E create_symlink talusplugin.so "${PROJECT_BINARY_DIR}/libtalus.so")

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The instruction sets that a portable build has styles for, and the choice between them. Without
-// LAMMPS and MPI.
+// The instruction sets that a portable build has styles for, and the choice between them; and what a
+// build for one processor needs of the one that it is loaded on. Without LAMMPS and MPI.
 
 #ifndef TALUS_INSTRUCTION_SETS_H
 #define TALUS_INSTRUCTION_SETS_H
@@ -51,6 +51,54 @@ inline std::string problem_of_isa(const std::string &word, int fastest)
   return "the environment variable TALUS_ISA is '" + word + "', which " +
          (asked < 0 ? "is no instruction set of Talus" : "not all ranks of this run can execute") +
          "; use one of: " + choices + "; or unset it, and Talus takes the fastest of them";
+}
+
+/// Instructions that the code of the styles may consist of, by the compiler's own account, as words of
+/// missing_instructions(); ends with nullptr. Plain x86-64 needs none. Data only: needed_instructions.cpp
+/// is compiled with the flags of the styles, what reads it for any processor.
+extern const char *const needed_instructions[];
+
+/// Those of the list that this processor or its operating system lacks, "avx512f, avx512vl"; empty if
+/// the code can run here. Words that nobody knows here are missing.
+inline std::string missing_instructions(const char *const *needed)
+{
+  std::string missing;
+#if defined(__x86_64__)
+  const struct {
+    const char *word;
+    bool here;
+  } known[] = {
+#define TALUS_KNOWN(word) {word, __builtin_cpu_supports(word) != 0}
+      TALUS_KNOWN("ssse3"),
+      TALUS_KNOWN("sse4.1"),
+      TALUS_KNOWN("sse4.2"),
+      TALUS_KNOWN("popcnt"),
+      TALUS_KNOWN("avx"),
+      TALUS_KNOWN("avx2"),
+      TALUS_KNOWN("fma"),
+      TALUS_KNOWN("bmi"),
+      TALUS_KNOWN("bmi2"),
+      TALUS_KNOWN("avx512f"),
+      TALUS_KNOWN("avx512bw"),
+      TALUS_KNOWN("avx512cd"),
+      TALUS_KNOWN("avx512dq"),
+      TALUS_KNOWN("avx512vl"),
+      TALUS_KNOWN("avx512ifma"),
+      TALUS_KNOWN("avx512vbmi"),
+      TALUS_KNOWN("avx512vbmi2"),
+      TALUS_KNOWN("avx512bitalg"),
+      TALUS_KNOWN("avx512vpopcntdq")
+#undef TALUS_KNOWN
+  };
+  for (; *needed; needed++) {
+    bool here = false;
+    for (const auto &one : known) here = here || (std::strcmp(one.word, *needed) == 0 && one.here);
+    if (!here) missing += (missing.empty() ? "" : ", ") + std::string(*needed);
+  }
+#else
+  (void) needed;
+#endif
+  return missing;
 }
 
 }    // namespace Talus

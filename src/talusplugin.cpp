@@ -9,6 +9,7 @@
 // in a second file, talusstyles.so, which is opened only after the check.
 
 #include "coupling/calls.h"
+#include "instruction_sets.h"
 #include "talus_abi.h"
 
 #include "lmptype.h"
@@ -22,6 +23,8 @@
 #include <string>
 
 namespace {
+
+constexpr int error_on_one_rank = 1;    // LMP_ERROR_ONE of lammps_error()
 
 // Everything that must agree between the host and this binary.
 struct Abi {
@@ -46,8 +49,9 @@ struct HostLibrary {
   int (*extract_setting)(void *, const char *);
   int (*has_mpi)();
   int (*has_package)(const char *);
+  void (*error)(void *, int, const char *);
 
-  bool complete() const { return version && extract_setting && has_mpi && has_package; }
+  bool complete() const { return version && extract_setting && has_mpi && has_package && error; }
 };
 
 template <typename Function> void look_up(void *library, const char *name, Function &function)
@@ -62,6 +66,7 @@ HostLibrary find_host_library()
   look_up(RTLD_DEFAULT, "lammps_extract_setting", host.extract_setting);
   look_up(RTLD_DEFAULT, "lammps_config_has_mpi_support", host.has_mpi);
   look_up(RTLD_DEFAULT, "lammps_config_has_package", host.has_package);
+  look_up(RTLD_DEFAULT, "lammps_error", host.error);
   return host;
 }
 
@@ -138,6 +143,18 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
                     "this plugin was built for a LAMMPS with package GRANULAR, which the "
                     "host lacks; build LAMMPS with PKG_GRANULAR on, or this plugin for "
                     "this host with scripts/build --host");
+
+  // One rank may lack what another one has, and could not be told from here: it ends the run.
+  const std::string missing = Talus::missing_instructions(Talus::needed_instructions);
+  if (!missing.empty())
+    return host.error(
+        lmp, error_on_one_rank,
+        ("Talus: this plugin was built for another processor than that of this machine, "
+         "which lacks the instructions " +
+         missing +
+         "; build it here with scripts/build, or for all machines with "
+         "scripts/build --portable")
+            .c_str());
 
   const std::string path = styles_path();
   void *styles = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -34,48 +34,104 @@ other_compiler() {
   done
 }
 
-# all_compilers: the oldest and the newest of each kind that are here, but that of the build.
+# all_compilers: the oldest and the newest of each kind that are here.
 all_compilers() {
   local kind number found
   for kind in g++ clang++; do
     found=()
     for number in {10..40}; do
-      if have "$kind-$number" && ! is_default_compiler "$kind-$number"; then found+=("$kind-$number"); fi
+      if have "$kind-$number"; then found+=("$kind-$number"); fi
     done
     [[ $kind == clang++ ]] && found=($(printf '%s\n' "${found[@]}" | grep -v -e '-1[0-3]$' || true))
     ((${#found[@]} == 0)) || printf '%s\n' "${found[0]}" "${found[-1]}"
   done | awk '!seen[$0]++'
 }
 
-# core_only NAME TITLE [options of CMake]: build it in build-NAME and run its tests.
-core_only() {
-  local name=$1 title=$2 dir=$TALUS_ROOT/build-$1
-  shift 2
+# compile_core NAME TITLE "TARGETS" [options of CMake]: in build-NAME; all targets where none is named.
+compile_core() {
+  local title=$2 dir=$TALUS_ROOT/build-$1 targets cache
+  read -ra targets <<<"$3"
+  shift 3
   note "== $title =="
-  local cache
   mapfile -t cache < <(compiler_cache_options)
   mkdir -p "$dir"
-  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" -D TALUS_CORE_ONLY=ON -D TALUS_WERROR=ON "${cache[@]}" "$@" >"$dir/configure.log" 2>&1 || {
+  cmake -S "$TALUS_ROOT" -B "$dir" -G "$(generator)" -D TALUS_CORE_ONLY=ON -D "TALUS_WERROR=$(warnings_are_errors)" \
+    "${cache[@]}" "$@" >"$dir/configure.log" 2>&1 || {
     grep -A 6 'CMake Error' "$dir/configure.log" | head -n 20 >&2
     note "$title: could not be configured; all of it is in $dir/configure.log"
     return 1
   }
-  show_build "building, $title" "$dir" "$dir/build.log" || {
+  show_build "building, $title" "$dir" "$dir/build.log" "${targets[@]}" || {
     grep -E -A 12 'FAILED|error:' "$dir/build.log" | head -n 40 >&2
     note "$title: could not be built; all of it is in $dir/build.log"
     return 1
   }
-  run_ctest "$dir"
+}
+
+# core_only NAME TITLE [options of CMake]: the same, and run its tests.
+core_only() {
+  local name=$1 title=$2
+  shift 2
+  compile_core "$name" "$title" '' "$@" && run_ctest "$TALUS_ROOT/build-$name"
+}
+
+# The levels of x86-64 (psABI), each of which contains those before it; compilers optimize differently for each, and warn of
+# other things.
+TALUS_LEVELS=(x86-64 x86-64-v2 x86-64-v3 x86-64-v4)
+
+# level_of_build: the highest level that the code of the build contains.
+level_of_build() {
+  local macros level=0
+  macros=$("$(host_compiler)" "-march=${TALUS_ARCH:-native}" -x c++ -dM -E - </dev/null 2>/dev/null)
+  if [[ $macros == *__SSE4_2__* ]]; then level=1; fi
+  if [[ $macros == *__AVX2__* && $macros == *__FMA__* ]]; then level=2; fi
+  if [[ $macros == *__AVX512VL__* && $macros == *__AVX512BW__* ]]; then level=3; fi
+  printf '%s' "${TALUS_LEVELS[level]}"
+}
+
+# can_run LEVEL: this machine, by what its kernel says.
+can_run() {
+  local flags
+  flags=" $(sed -n '/^flags/{s/.*: //p;q}' /proc/cpuinfo 2>/dev/null) "
+  case $1 in
+    native | x86-64) return 0 ;;
+    x86-64-v2) [[ $flags == *' sse4_2 '* ]] ;;
+    x86-64-v3) [[ $flags == *' avx2 '* && $flags == *' fma '* ]] ;;
+    x86-64-v4) [[ $flags == *' avx512vl '* && $flags == *' avx512bw '* ]] ;;
+  esac
+}
+
+knows_level() { "$1" "-march=$2" -x c++ -E - </dev/null >/dev/null 2>&1; }
+
+# another_level: the core as the build compiles it, for a level that is not its own: what users' machines have and this one
+# may not. Not run.
+another_level() {
+  local level=x86-64-v3
+  [[ $(level_of_build) != "$level" ]] || level=x86-64-v4
+  if ! knows_level "$(host_compiler)" "$level"; then
+    note "left out: the core for $level, which $(host_compiler) does not know"
+    return 0
+  fi
+  compile_core "$level" "core for $level, compiled" 'talus_core talus_exchange' -D "TALUS_ARCH=$level" -D "CMAKE_CXX_COMPILER=$(host_compiler)"
 }
 
 # Little optimization: vectors and rounding are the same, and the time is half.
 TALUS_CHECK=(-D CMAKE_BUILD_TYPE=Check -D CMAKE_CXX_FLAGS_CHECK=-O1)
 
-# with_compiler COMPILER [options of CMake]
+# with_compiler COMPILER LEVEL [options of CMake]: unit tests for a level, or "native"; compiled only where this machine
+# cannot run them.
 with_compiler() {
-  local compiler=$1
-  shift
-  core_only "$compiler" "unit tests with $compiler" "${TALUS_CHECK[@]}" -D "CMAKE_CXX_COMPILER=$compiler" "$@"
+  local compiler=$1 level=$2 name=$1 options
+  shift 2
+  options=("${TALUS_CHECK[@]}" -D "CMAKE_CXX_COMPILER=$compiler" -D "TALUS_ARCH=$level" "$@")
+  [[ $level == native ]] || name+=-$level
+  if [[ $level != native ]] && ! knows_level "$compiler" "$level"; then
+    note "left out: $compiler for $level, which it does not know"
+  elif can_run "$level"; then
+    core_only "$name" "unit tests with $compiler for $level" "${options[@]}"
+  else
+    compile_core "$name" "$compiler for $level, which this machine cannot run: compiled" '' "${options[@]}"
+  fi
 }
 
 # Folder of mpi.h, for compilers without an MPI of their own.

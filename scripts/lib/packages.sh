@@ -15,7 +15,7 @@ TALUS_TEST_PACKAGES=(python3-numpy libgtest-dev libgmock-dev libyaml-dev libbenc
 TALUS_BENCHMARK_PACKAGES=(libbenchmark-dev)
 
 # Programs that tests couple with Talus.
-TALUS_PARTNER_PACKAGES=(libmujoco-dev)
+TALUS_PARTNER_PACKAGES=(libmujoco-dev python3-getfem)
 
 # What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.
 TALUS_THREAD_SANITIZER_PACKAGES=(clang libclang-rt-dev libomp-dev)

@@ -44,10 +44,25 @@ explain_configure() {
 # scripts/run leave a build directory of scripts/test as it is, and compile only what has changed.
 developer_options() {
   if [[ -n ${TALUS_TESTS:-} ]]; then
-    printf -- '-D\n%s\n' TALUS_TESTS=ON TALUS_WERROR=ON
+    printf -- '-D\n%s\n' TALUS_TESTS=ON "TALUS_WERROR=$(warnings_are_errors)"
     compiler_cache_options
   fi
   if [[ -n ${TALUS_TESTS:-}${TALUS_BENCHMARKS:-} ]]; then printf -- '-D\n%s\n' TALUS_BENCHMARKS=ON; fi
+}
+
+# warnings_are_errors: ON where we check ourselves. A user whose compiler sees more than ours is told of it at the end
+# (show_warnings), and has his tests.
+warnings_are_errors() { if [[ ${CI:-} == true || -n ${TALUS_STRICT:-} ]]; then echo ON; else echo OFF; fi; }
+
+# show_warnings SINCE: those of our code in the logs of builds that are newer than that file.
+show_warnings() {
+  local logs warnings
+  mapfile -t logs < <(find "$TALUS_ROOT" -maxdepth 2 -path "$TALUS_ROOT/build*/build.log" -newer "$1")
+  ((${#logs[@]})) || return 0
+  mapfile -t warnings < <(grep -hE '^[^ ]*(src|tests|bench)/.* warning: ' "${logs[@]}" | sed 's|^[./]*||' | sort -u)
+  ((${#warnings[@]})) || return 0
+  note "the compiler warns in ${#warnings[@]} places, which fails no test; a bug report with these lines is welcome:"
+  printf '%s\n' "${warnings[@]:0:20}" >&2
 }
 
 # compiler_cache_options: what one clone has compiled, none compiles again.

@@ -2,27 +2,18 @@
 
 #include "base/words.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <locale.h>
-#include <sstream>
 #include <stdexcept>
 #include <stdlib.h>
 #include <utility>
 
 namespace Talus {
 namespace {
-
-/* As %g in the C locale. */
-
-std::string as_text(double number)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << number;
-  return text.str();
-}
 
 /* "a, b or c" */
 
@@ -119,8 +110,8 @@ double Words::positive(const std::string &name)
 
 double Words::between(const std::string &name, double lo, double hi, bool open)
 {
-  const std::string range = "a number " + std::string(open ? "above " : "from ") + as_text(lo) +
-                            (open ? ", up to " : " to ") + as_text(hi);
+  const std::string range = "a number " + std::string(open ? "above " : "from ") + number_text(lo) +
+                            (open ? ", up to " : " to ") + number_text(hi);
   return number_in(name + " (" + range + ")",
                    [=](double value) { return (open ? value > lo : value >= lo) && value <= hi; });
 }

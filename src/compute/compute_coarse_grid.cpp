@@ -53,7 +53,10 @@ ComputeCoarseGrid::ComputeCoarseGrid(LAMMPS *lmp, int narg, char **arg) :
   width = words.positive("width W");
   if (words.at_end()) words.text("a value, e.g. density");
   while (!words.at_end()) quantities.push_back(words.choice("value", names));
-  for (const int q : quantities) with_contacts = with_contacts || q >= Q_CONTACT;
+  for (const int q : quantities) {
+    with_contacts = with_contacts || q >= Q_CONTACT;
+    with_volumes = with_volumes || q == Q_FRACTION;
+  }
   if (!atom->radius_flag || !atom->rmass_flag)
     error->all(FLERR, "compute coarse/grid requires atom attributes radius and rmass: use "
                       "'atom_style sphere'");
@@ -104,7 +107,10 @@ void ComputeCoarseGrid::init()
 
 double ComputeCoarseGrid::reach() const
 {
-  return width + std::max(neighbor->cutneighmax, 0.0) + neighbor->skin;
+  double radius = 0.0;
+  for (int i = 0; i < atom->nlocal && with_volumes; i++) radius = std::max(radius, atom->radius[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
+  return width + std::max({neighbor->cutneighmax, radius, 0.0}) + neighbor->skin;
 }
 
 void ComputeCoarseGrid::free_data()
@@ -224,18 +230,27 @@ void ComputeCoarseGrid::add_particles()
   const SystemShapes *shapes = system->shapes();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const double m = atom->rmass[i], volume = particle_volume(*atom, shapes, i), *v = atom->v[i];
+    const double m = atom->rmass[i], *v = atom->v[i];
+    if (with_volumes) add_volume(row(atom->x[i]), particle_volume(*atom, shapes, i));
     for (const CoarseKernel::Share &share : kernel->of_point(row(atom->x[i]))) {
       double *to = moments_of(share);
       if (!to) continue;
       to[NUMBER] += share.weight;
       to[MASS] += share.weight * m;
-      to[VOLUME] += share.weight * volume;
       for (int d = 0; d < 3; d++) to[MOMENTUM + d] += share.weight * (m * v[d]);
       for (int k = 0; k < 6; k++)
         to[FLOW + k] += share.weight * (m * v[row_of[k]] * v[column_of[k]]);
     }
   }
+}
+
+/* Of the ball with this volume: of a shape that is not round, near enough where the width is not less than its size. */
+
+void ComputeCoarseGrid::add_volume(const Vector3<double> &x, double volume)
+{
+  constexpr double of_ball = 0.23873241463784300365;    // 3/(4 pi)
+  for (const CoarseKernel::Share &share : kernel->of_ball(x, std::cbrt(of_ball * volume)))
+    if (double *const to = moments_of(share)) to[VOLUME] += share.weight * volume;
 }
 
 /* The line of a contact is divided where the surfaces meet: each particle has a branch from its

@@ -43,6 +43,7 @@ class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
   double reach() const;
   void free_data();
   void add_particles();
+  void add_volume(const Talus::Vector3<double> &x, double volume);
   void add_contacts();
   bool asks_for_work() const override { return false; }
   void add_branch(const Talus::Vector3<double> &from, const Talus::Vector3<double> &to,
@@ -53,7 +54,7 @@ class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
   int cells[3];
   double width;
   std::vector<int> quantities;    // what each column is
-  bool with_contacts = false;
+  bool with_contacts = false, with_volumes = false;
   std::shared_ptr<Talus::GranularSystem> system;    // its bodies
   Talus::ContactList contacts;
 

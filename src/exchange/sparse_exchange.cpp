@@ -2,6 +2,8 @@
 
 #include "exchange/sparse_exchange.h"
 
+#include "exchange/large_messages.h"
+
 namespace Talus {
 
 SparseExchange::SparseExchange(MPI_Comm parent)
@@ -18,13 +20,14 @@ SparseExchange::~SparseExchange()
 
 bool SparseExchange::take_one(const std::function<void(const std::vector<double> &)> &take)
 {
-  int there = 0, size = 0;
+  int there = 0;
   MPI_Status status;
   MPI_Iprobe(MPI_ANY_SOURCE, tag, comm, &there, &status);
   if (!there) return false;
-  MPI_Get_count(&status, MPI_DOUBLE, &size);
-  std::vector<double> message(size);
-  MPI_Recv(message.data(), size, MPI_DOUBLE, status.MPI_SOURCE, tag, comm, MPI_STATUS_IGNORE);
+  std::vector<double> message(doubles_of(status));
+  const LargeMessage whole(message.size());
+  MPI_Recv(message.data(), whole.count(), whole.type(), status.MPI_SOURCE, tag, comm,
+           MPI_STATUS_IGNORE);
   take(message);
   return true;
 }
@@ -34,9 +37,10 @@ int SparseExchange::run(const std::map<int, std::vector<double>> &messages, int 
 {
   std::vector<MPI_Request> sends;
   sends.reserve(messages.size());
-  for (const auto &[rank, message] : messages)
-    MPI_Issend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, rank, tag, comm,
-               &sends.emplace_back());
+  for (const auto &[rank, message] : messages) {
+    const LargeMessage whole(message.size());    // its type may go before the message has gone
+    MPI_Issend(message.data(), whole.count(), whole.type(), rank, tag, comm, &sends.emplace_back());
+  }
 
   int largest = number, all_sent = 0, over = 0;
   MPI_Request reduction = MPI_REQUEST_NULL;

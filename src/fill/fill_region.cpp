@@ -10,6 +10,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "irregular.h"
 
 #include <cmath>
 
@@ -86,11 +87,20 @@ void FillRegion::command(int narg, char **arg)
         count, solid / volume, region_id, reached, steps, limit,
         steps == most_steps ? " or more steps" : "");
   create_spheres(lmp, made, type, density);
+  if (domain->nonperiodic == 2) enlarge_box();
   if (comm->me == 0)
     utils::logmesg(lmp,
                    "fill_region: {} spheres in region {}, solid fraction {:.6g} of its volume "
                    "{:.6g}, largest overlap {:.3g} of the smaller radius after {} steps\n",
                    count, region_id, solid / volume, volume, reached, steps);
+}
+
+/* Where it is shrink-wrapped. Particles may be of ranks far away then. */
+
+void FillRegion::enlarge_box()
+{
+  domain->reset_box();
+  Irregular(lmp).migrate_atoms(1);
 }
 
 int FillRegion::count_spheres(double volume) const

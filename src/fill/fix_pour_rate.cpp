@@ -4,6 +4,7 @@
 
 #include "fill/region_space.h"
 #include "system/command_words.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -95,9 +96,27 @@ void FixPourRate::pre_exchange()
   if (next_reneighbor != update->ntimestep) return;
   due += rate * (nevery * update->dt);
   const RegionSpace space(lmp, "fix pour/rate", region_id);
+  require_countable(space);
   create(find_places(space));
   warn_if_behind();
   next_reneighbor = is_over() ? 0 : update->ntimestep + nevery;
+}
+
+/* What is behind the rate and finds no place does not count. */
+
+void FixPourRate::require_countable(const RegionSpace &space) const
+{
+  constexpr double most = 1.0e7;
+  const double volume = std::min(due / density, space.volume_between_corners());
+  if (density * volume < most * mass_of(sizes.smallest())) return;
+  const double number = sizes.count_of(volume);
+  if (number > most)
+    error->all(FLERR,
+               "fix pour/rate {}: {:.3g} spheres are due at a time, a mass of {:.4g}: this is more "
+               "than this command is "
+               "made for, look for a wrong unit in the mass rate, the diameter or the density, or "
+               "take a smaller N",
+               id, number, density * volume);
 }
 
 /* The same on all ranks: they know the same spheres and draw the same numbers. */
@@ -108,11 +127,7 @@ std::vector<KnownSphere> FixPourRate::find_places(const RegionSpace &space)
                            made;
   double largest = largest_radius;
   for (const KnownSphere &one : known) largest = std::max(largest, one.radius);
-  const double *const lo = domain->boxlo, *const hi = domain->boxhi;
-  const GridBox box{{lo[0], lo[1], lo[2]},
-                    {hi[0], hi[1], hi[2]},
-                    {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
-  SphereGrid grid(box, largest, 0.0, known.size());
+  SphereGrid grid(space.box(), largest, 0.0, known.size());
   for (std::size_t n = 0; n < known.size(); n++)
     grid.add(static_cast<int>(n), known[n].x, known[n].radius);
   while (due >= 0.5 * mass_of(next_diameter) && !is_over()) {
@@ -162,6 +177,13 @@ void FixPourRate::create(const std::vector<KnownSphere> &spheres)
     atom->v[i][2] = velocity.z;
   }
   count += static_cast<double>(spheres.size());
+  if (box_grows_too_fast(lmp))
+    error->all(FLERR,
+               "fix pour/rate {}: the box grows too fast for this number of ranks along it, to "
+               "reach the region: use "
+               "'boundary' with m in the place of s, so that it stays as large as it is defined, "
+               "or 'processors'",
+               id);
 }
 
 void FixPourRate::warn_if_behind()
@@ -190,47 +212,33 @@ void *FixPourRate::extract(const char *what, int &of_type)
 
 /* ---- restart -------------------------------------------------------------------------------- */
 
-/* Words of 8 bytes: layout, generator, diameter, what is due, mass, count, next step. Files of Talus
-   before 1.0 lack the first one. */
-
 namespace {
-constexpr std::uint64_t layout = 0x5461'6c75'7300'0002;    // "Talus", 2
+constexpr int restart_format = 3;
 
-template <class Value> void put(std::uint64_t &word, Value value)
-{
-  static_assert(sizeof value == sizeof word);
-  std::memcpy(&word, &value, sizeof word);
-}
-
-template <class Value> void take(const char *&from, Value &value)
-{
-  static_assert(sizeof value == sizeof layout);
-  std::memcpy(&value, from, sizeof value);
-  from += sizeof value;
-}
+struct State {
+  std::uint64_t random;
+  double next_diameter, due, poured, count;
+  std::int64_t next_step;
+};
 }    // namespace
 
 void FixPourRate::write_restart(FILE *file)
 {
   if (comm->me) return;
-  std::uint64_t words[7] = {layout, random.state};
-  const double numbers[] = {next_diameter, due, poured, count};
-  for (int n = 0; n < 4; n++) put(words[2 + n], numbers[n]);
-  put(words[6], static_cast<std::int64_t>(next_reneighbor));
-  const int size = sizeof words;
-  fwrite(&size, sizeof size, 1, file);
-  fwrite(words, size, 1, file);
+  const State state{random.state, next_diameter, due, poured, count, next_reneighbor};
+  write_restart_data_of_fix(file, restart_format, &state, sizeof state);
 }
 
 void FixPourRate::restart(char *buffer)
 {
-  const char *from = buffer;
-  std::uint64_t first;
-  take(from, first);
-  if (first != layout) from = buffer;
-  take(from, random.state);
-  for (double *number : {&next_diameter, &due, &poured, &count}) take(from, *number);
-  std::int64_t step;
-  take(from, step);
-  next_reneighbor = static_cast<bigint>(step);
+  const std::string data =
+      restart_data_of_fix(lmp, std::string("fix pour/rate ") + id, restart_format, buffer);
+  State state;
+  std::memcpy(&state, data.data(), sizeof state);
+  random.state = state.random;
+  next_diameter = state.next_diameter;
+  due = state.due;
+  poured = state.poured;
+  count = state.count;
+  next_reneighbor = static_cast<bigint>(state.next_step);
 }

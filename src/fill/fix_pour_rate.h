@@ -36,6 +36,7 @@ class FixPourRate : public Fix {
  private:
   double mass_of(double diameter) const;
   bool is_over() const { return total > 0.0 && poured >= total; }
+  void require_countable(const RegionSpace &space) const;
   std::vector<KnownSphere> find_places(const RegionSpace &space);
   bool is_free(const KnownSphere &sphere, const std::vector<KnownSphere> &others,
                const Talus::SphereGrid &grid) const;

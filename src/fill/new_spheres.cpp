@@ -2,6 +2,8 @@
 
 #include "fill/new_spheres.h"
 
+#include "exchange/large_messages.h"
+
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
@@ -17,7 +19,7 @@ using namespace Talus;
 
 namespace {
 
-constexpr int row_size = 5;    // ID, place, radius
+constexpr std::size_t row_size = 5;    // ID, as its bits, place, radius
 
 /// A part of the sphere, or of one of its images, is between lo and hi.
 bool reaches(const Domain *domain, double x, double radius, int d, double lo, double hi)
@@ -30,18 +32,12 @@ bool reaches(const Domain *domain, double x, double radius, int d, double lo, do
   return false;
 }
 
-std::vector<double> gather(MPI_Comm world, const std::vector<double> &mine)
+/// What is beyond a face that grows is of those who are there.
+bool is_of_this_rank(const Domain &domain, int d, double x)
 {
-  int size;
-  MPI_Comm_size(world, &size);
-  int count = static_cast<int>(mine.size());
-  std::vector<int> counts(size), first(size, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < size; r++) first[r] = first[r - 1] + counts[r - 1];
-  std::vector<double> all(first[size - 1] + counts[size - 1]);
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), first.data(),
-                 MPI_DOUBLE, world);
-  return all;
+  const bool first = domain.boundary[d][0] >= 2 && domain.sublo[d] == domain.boxlo[d],
+             last = domain.boundary[d][1] >= 2 && domain.subhi[d] == domain.boxhi[d];
+  return (first || x >= domain.sublo[d]) && (last || x < domain.subhi[d]);
 }
 
 void require_made(LAMMPS *lmp, bigint mine, bigint wanted)
@@ -65,15 +61,16 @@ std::vector<KnownSphere> LAMMPS_NS::spheres_in_box(LAMMPS *lmp, const Vector3<do
     const double *x = atom->x[i], r = atom->radius[i];
     bool near = true;
     for (int d = 0; d < 3; d++) near = near && reaches(lmp->domain, x[d], r, d, low[d], high[d]);
-    if (near) mine.insert(mine.end(), {static_cast<double>(atom->tag[i]), x[0], x[1], x[2], r});
+    if (near) mine.insert(mine.end(), {ubuf(atom->tag[i]).d, x[0], x[1], x[2], r});
   }
-  const std::vector<double> all = gather(lmp->world, mine);
-  std::vector<int> order(all.size() / row_size);
+  const std::vector<double> all = gather(mine, MPI_DOUBLE, -1, lmp->world);
+  std::vector<std::size_t> order(all.size() / row_size);
   std::iota(order.begin(), order.end(), 0);
+  const auto tag = [&all](std::size_t k) { return ubuf(all[row_size * k]).i; };
   std::sort(order.begin(), order.end(),
-            [&all](int a, int b) { return all[row_size * a] < all[row_size * b]; });
+            [&tag](std::size_t a, std::size_t b) { return tag(a) < tag(b); });
   std::vector<KnownSphere> found;
-  for (const int k : order) {
+  for (const std::size_t k : order) {
     const double *row = &all[row_size * k];
     found.push_back({{row[1], row[2], row[3]}, row[4]});
   }
@@ -99,7 +96,7 @@ int LAMMPS_NS::create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spher
     last++;
     double x[3] = {sphere.x.x, sphere.x.y, sphere.x.z};
     bool here = true;
-    for (int d = 0; d < 3; d++) here = here && x[d] >= domain->sublo[d] && x[d] < domain->subhi[d];
+    for (int d = 0; d < 3; d++) here = here && is_of_this_rank(*domain, d, x[d]);
     if (!here) continue;
     const int i = atom->nlocal;
     atom->avec->create_atom(type, x);
@@ -116,4 +113,40 @@ int LAMMPS_NS::create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spher
     atom->map_set();
   }
   return first;
+}
+
+/* Sub-domains are shares of the box, so that those of all ranks move when it grows; and in a run particles go to the next
+   ranks only. */
+
+bool LAMMPS_NS::box_grows_too_fast(LAMMPS *lmp)
+{
+  const Atom *atom = lmp->atom;
+  const Domain *domain = lmp->domain;
+  const Comm *comm = lmp->comm;
+  if (domain->nonperiodic != 2 || comm->layout == Comm::LAYOUT_TILED) return false;
+  double ends[6];    // with a minus, the lower ones
+  for (int d = 0; d < 3; d++) {
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int i = 0; i < atom->nlocal; i++) {
+      lo = std::min(lo, atom->x[i][d]);
+      hi = std::max(hi, atom->x[i][d]);
+    }
+    ends[d] = domain->boundary[d][0] >= 2 ? -lo : -domain->boxlo[d];
+    ends[d + 3] = domain->boundary[d][1] >= 2 ? hi : domain->boxhi[d];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends, 6, MPI_DOUBLE, MPI_MAX, lmp->world);
+  int far = 0;
+  const double *const splits[] = {comm->xsplit, comm->ysplit, comm->zsplit};
+  for (int d = 0; d < 3; d++) {
+    const auto border = [&](int k) { return -ends[d] + splits[d][k] * (ends[d + 3] + ends[d]); };
+    const int below = comm->myloc[d] - 1,
+              above = comm->myloc[d] + 2;    // borders of what can be reached
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double x = atom->x[i][d];
+      if ((below > 0 && x < border(below)) || (above < comm->procgrid[d] && x >= border(above)))
+        far = 1;
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &far, 1, MPI_INT, MPI_MAX, lmp->world);
+  return far != 0;
 }

@@ -23,9 +23,13 @@ struct KnownSphere {
 std::vector<KnownSphere> spheres_in_box(LAMMPS *lmp, const Talus::Vector3<double> &lo,
                                         const Talus::Vector3<double> &hi);
 
-/// Makes particles: `spheres` is the same on all ranks. IDs follow the largest one, in this order.
+/// Makes particles: `spheres` is the same on all ranks. IDs follow the largest one, in this order. What is beyond a
+/// shrink-wrapped face is of the rank there, until LAMMPS has made the box larger.
 /// Returns the local index of the first. Collective; LAMMPS must then renew its ghosts.
 int create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spheres, int type, double density);
+/// The box is about to be made larger, and a particle of any rank will be of one further away than those that LAMMPS
+/// sends it to in a run. Collective.
+bool box_grows_too_fast(LAMMPS *lmp);
 
 }    // namespace LAMMPS_NS
 

@@ -2,15 +2,69 @@
 
 #include "fill/region_space.h"
 
+#include "base/linear_algebra.h"
+#include "system/lammps_compat.h"
+#include "system/private_members.h"
+#include "system/time_formula.h"
+
 #include "domain.h"
 #include "error.h"
 #include "region.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
+
+namespace {
+
+using Eigen::AlignedBox3d;
+
+AlignedBox3d all_of_space()
+{
+  const Eigen::Vector3d far = Eigen::Vector3d::Constant(HUGE_VAL);
+  return {-far, far};
+}
+
+/// What may have some of the region, where it is now.
+AlignedBox3d extent_of(const Region &region)
+{
+  if (region.varshape || !region.bboxflag) return all_of_space();
+  const Eigen::Vector3d lo{region.extent_xlo, region.extent_ylo, region.extent_zlo},
+      hi{region.extent_xhi, region.extent_yhi, region.extent_zhi};
+  const AlignedBox3d given(lo, hi);
+  if (!region.dynamic || TALUS_HOST_MOVES_EXTENTS) return given;
+  if (is_composite(region)) {    // its parts move
+    const bool is_union = std::strcmp(region.style, "union") == 0;
+    AlignedBox3d all = is_union ? AlignedBox3d() : all_of_space();
+    for (int n = 0; n < region.nregion; n++) {
+      const AlignedBox3d part = extent_of(*region.reglist[n]);
+      all = is_union ? all.merged(part) : all.intersection(part);
+    }
+    return all;
+  }
+  AlignedBox3d moved;
+  for (int n = 0; n < 8; n++) {
+    Eigen::Vector3d corner = given.corner(static_cast<AlignedBox3d::CornerType>(n));
+    if (region.rotateflag) {
+      const Eigen::Map<const Eigen::Vector3d> point(point_of_rotation(region)),
+          axis(axis_of_rotation(region));
+      corner = point + Eigen::AngleAxisd(region.theta, axis) * (corner - point);
+    }
+    if (region.moveflag) corner += Eigen::Vector3d{region.dx, region.dy, region.dz};
+    moved.extend(corner);
+  }
+  return moved;
+}
+
+bool is_shrink_wrapped(const Domain &domain, int d, int side)
+{
+  return domain.boundary[d][side] >= 2;
+}
+
+}    // namespace
 
 RegionSpace::RegionSpace(LAMMPS *lmp, const std::string &command, const std::string &region_id) :
     Pointers(lmp)
@@ -23,26 +77,34 @@ RegionSpace::RegionSpace(LAMMPS *lmp, const std::string &command, const std::str
     error->all(FLERR, "{}: region '{}' has open faces: spheres would leave it", command, region_id);
   region->init();
   region->prematch();
-  const double of_region[6] = {region->extent_xlo, region->extent_ylo, region->extent_zlo,
-                               region->extent_xhi, region->extent_yhi, region->extent_zhi};
-  lo = {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]};
-  hi = {domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]};
+  const AlignedBox3d extent = extent_of(*region);
   bool empty = false;
+  double from[3], to[3];
   for (int d = 0; d < 3; d++) {
     periodic[d] = domain->periodicity[d] != 0;
-    const bool bounded = region->bboxflag && !region->dynamic;
-    low[d] = bounded ? std::max(domain->boxlo[d], of_region[d]) : domain->boxlo[d];
-    high[d] = bounded ? std::min(domain->boxhi[d], of_region[d + 3]) : domain->boxhi[d];
-    empty = empty || !(high[d] > low[d]);
+    const auto grows = [&](int side, double end) {
+      return is_shrink_wrapped(*domain, d, side) && std::isfinite(end);
+    };
+    low[d] = extent.min()[d];
+    high[d] = extent.max()[d];
+    if (!grows(0, low[d])) low[d] = std::max(domain->boxlo[d], low[d]);
+    if (!grows(1, high[d])) high[d] = std::min(domain->boxhi[d], high[d]);
+    from[d] = std::min(domain->boxlo[d], low[d]);
+    to[d] = std::max(domain->boxhi[d], high[d]);
+    empty = empty || (!(high[d] > low[d]) && !region->dynamic);    // a moving one may come back
   }
+  lo = {from[0], from[1], from[2]};
+  hi = {to[0], to[1], to[2]};
   if (empty) error->all(FLERR, "{}: region '{}' is empty or outside the box", command, region_id);
 }
 
 bool RegionSpace::contains(const Vector3<double> &x) const
 {
   const double place[3] = {x.x, x.y, x.z};
-  for (int d = 0; d < 3; d++)
-    if (place[d] < domain->boxlo[d] || place[d] >= domain->boxhi[d]) return false;
+  for (int d = 0; d < 3; d++) {
+    if (place[d] < domain->boxlo[d] && !is_shrink_wrapped(*domain, d, 0)) return false;
+    if (place[d] >= domain->boxhi[d] && !is_shrink_wrapped(*domain, d, 1)) return false;
+  }
   return region->match(x.x, x.y, x.z) != 0;
 }
 
@@ -100,6 +162,13 @@ double RegionSpace::volume() const
         inside += region->match(low[0] + (i + 0.5) * h[0], low[1] + (j + 0.5) * h[1],
                                 low[2] + (k + 0.5) * h[2]);
   return inside * (h[0] * h[1] * h[2]);
+}
+
+double RegionSpace::volume_between_corners() const
+{
+  double volume = 1.0;
+  for (int d = 0; d < 3; d++) volume *= std::max(0.0, high[d] - low[d]);
+  return volume;
 }
 
 Vector3<double> RegionSpace::draw(RandomNumbers &random) const

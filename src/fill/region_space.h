@@ -2,7 +2,8 @@
 //
 // The part of the simulation box that is in a region, as spheres find it that are to be whole
 // within: faces of the region are walls, but for those on a periodic face of the box, and so are
-// fixed faces of the box.
+// fixed faces of the box. Faces that are shrink-wrapped are none: the region may be beyond them, for the box
+// grows with what is made there.
 
 #ifndef TALUS_FILL_REGION_SPACE_H
 #define TALUS_FILL_REGION_SPACE_H
@@ -29,7 +30,10 @@ class RegionSpace : public Talus::PackingSpace, protected Pointers {
   bool holds(const Talus::Vector3<double> &x, double radius) const;
 
   double volume() const;
-  /// Corners of the part of the box that may have some of the region.
+  /// Not less than that.
+  double volume_between_corners() const;
+  /// Corners of what may have some of the region, where it is now; of all of the box where LAMMPS does not know
+  /// how far the region extends.
   Talus::Vector3<double> low_corner() const { return {low[0], low[1], low[2]}; }
   Talus::Vector3<double> high_corner() const { return {high[0], high[1], high[2]}; }
   /// Somewhere between these corners.
@@ -39,7 +43,7 @@ class RegionSpace : public Talus::PackingSpace, protected Pointers {
   bool is_periodic_face(const Talus::Vector3<double> &at, const Talus::Vector3<double> &n) const;
 
   class Region *region;
-  double low[3], high[3];    // of box and region
+  double low[3], high[3];    // the corners
 };
 
 }    // namespace LAMMPS_NS

@@ -54,9 +54,7 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   body.keep_history();
   offer_output();
   keep_history();
-  system->run_monitor().add(this,
-                            monitor.checks([this] { return body.find_worst(); },
-                                           [this] { return motion.moves(); }, side.mesh(), id));
+  system->run_monitor().add(this, monitor.checks(body, [this] { return motion.moves(); }));
 }
 
 FixLargeBody::~FixLargeBody()
@@ -98,13 +96,16 @@ void FixLargeBody::parse_keywords(Words &words)
     words.about("");
     if (words.take("contact")) {
       parse_contact_words(words);
+    } else if (words.take("type")) {
+      parse_type(words);
     } else if (words.take("two-sided") || motion.parse(words) || surface->parse(words)) {
       continue;
     } else {
-      words.fail(0, "unknown word '" + words.peek() +
-                        "', expected contact, two-sided, move, servo, surface_velocity, gravity, "
-                        "load, pressure, wear, vtk, or in a contact " +
-                        contact_keywords);
+      words.fail(
+          0, "unknown word '" + words.peek() +
+                 "', expected contact, type, two-sided, move, servo, surface_velocity, gravity, "
+                 "load, pressure, wear, vtk, or in a contact " +
+                 contact_keywords);
     }
   }
   if (motion.frame().runs && !body.shape().is_flat())
@@ -114,12 +115,32 @@ void FixLargeBody::parse_keywords(Words &words)
     if (!body.has_law(type))
       error->all(FLERR,
                  "fix large/body: no contact law for particles of type {}: add 'contact "
-                 "NORMAL args ...' or 'contact types {} NORMAL args ...'",
+                 "NORMAL args ...' or 'contact types {} NORMAL args ...', or 'type N'",
                  type, type);
+}
+
+/* The law with particles of another type is that of pair_coeff. */
+
+void FixLargeBody::parse_type(Words &words)
+{
+  words.about("type");
+  const int type = words.integer("atom type", 1);
+  if (type > atom->ntypes)
+    words.fail(1, fmt::format("there are {} atom types: make one for the body in create_box",
+                              atom->ntypes));
+  for (int other = 1; other <= atom->ntypes; other++)
+    if (body.has_law(other)) refuse_two_laws(words, 2);
+  body.set_type_of_laws(type);
+}
+
+void FixLargeBody::refuse_two_laws(const Words &words, int back)
+{
+  words.fail(back, "the laws of a body are those of 'type', once, or of 'contact': remove one");
 }
 
 void FixLargeBody::parse_contact_words(Words &words)
 {
+  if (body.has_type_of_laws()) refuse_two_laws(words, 1);
   int lo = 1, hi = atom->ntypes;
   words.about("contact");
   if (words.take("types"))
@@ -129,6 +150,10 @@ void FixLargeBody::parse_contact_words(Words &words)
   if (parsed.law.conducts_heat())
     words.fail(words.index() - at_normal,
                "large bodies have no temperature: remove 'heat', or use fix wall/gran granular");
+  if (takes_moduli_of_types(parsed))
+    words.fail(words.index() - at_normal,
+               "E and nu = NULL are those of two types of particles, in pair_coeff: write numbers, "
+               "or give the body a 'type'");
   for (int type = lo; type <= hi; type++) body.set_law(type, parsed);
 }
 
@@ -164,6 +189,7 @@ void FixLargeBody::follow_region()
   const std::string refusal = RegionShape::refusal(*region, motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
   shape->replace(region, *domain);
+  body.set_region(shape->handle());
   if (motion.has_own()) return;
   motion.follow(*region, shape->reference_point());
   body.set_frame(&motion.frame(), motion.moves());

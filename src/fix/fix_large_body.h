@@ -96,6 +96,8 @@ class FixLargeBody : public Fix,
  private:
   void parse_keywords(Talus::Words &words);
   void parse_contact_words(Talus::Words &words);
+  void parse_type(Talus::Words &words);
+  [[noreturn]] static void refuse_two_laws(const Talus::Words &words, int back);
   void offer_output();
   void keep_history();
   void follow_region();

@@ -7,6 +7,7 @@
 
 #include "base/state_exchange.h"
 #include "system/particle_count.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -20,10 +21,9 @@ using namespace Talus;
 
 namespace {
 
-// Negative: files of the first version begin with the number of particles.
-constexpr double restart_version = -7.0;
-constexpr int size_head = 3;
-constexpr int restart_header = 2;    // of a particle: number of doubles, ID
+constexpr int restart_format = 8;
+constexpr int size_head = 2;
+constexpr int restart_header = size_particle_head + 1;    // of a particle: and its ID
 
 }    // namespace
 
@@ -73,7 +73,7 @@ void FixLargeBody::exchange_state(StateExchange &x)
   body.exchange_state(x);
 }
 
-/* Version of what follows; number of particles; side of a mesh; motion; size and state of vertices that move;
+/* Number of particles; side of a mesh; motion; size and state of vertices that move;
    what triangles have borne.
    LAMMPS does not move what it has read for us when particles are deleted before this fix is
    defined: the number tells. */
@@ -82,9 +82,8 @@ void FixLargeBody::write_restart(FILE *fp)
 {
   const bigint particles = Talus::count_particles(lmp);
   std::vector<double> values(size_head + LargeBodyMotion::size_restart);
-  values[0] = restart_version;
-  values[1] = static_cast<double>(particles);
-  values[2] = side.code();
+  values[0] = static_cast<double>(particles);
+  values[1] = side.code();
   motion.to_array(&values[size_head]);
   values.push_back(0.0);
   const std::size_t before = values.size();
@@ -92,32 +91,22 @@ void FixLargeBody::write_restart(FILE *fp)
   values[before - 1] = static_cast<double>(values.size() - before);
   surface->append_work(values);    // sums over ranks
   if (comm->me) return;
-  const int size = static_cast<int>(values.size() * sizeof(double));
-  const double entries = static_cast<double>(values.size());
-  const int all = size + static_cast<int>(sizeof entries);
-  fwrite(&all, sizeof all, 1, fp);
-  fwrite(&entries, sizeof entries, 1, fp);
-  fwrite(values.data(), sizeof(double), values.size(), fp);
+  write_restart_data_of_fix(fp, restart_format, values.data(), values.size() * sizeof(double));
 }
 
 void FixLargeBody::restart(char *buf)
 {
-  double entries;
-  std::memcpy(&entries, buf, sizeof entries);
-  std::vector<double> values(static_cast<std::size_t>(entries));
-  std::memcpy(values.data(), buf + sizeof entries, values.size() * sizeof(double));
-  if (values[0] != restart_version)
-    error->all(FLERR,
-               "Fix large/body {}: the restart file was written by another version of Talus, which "
-               "kept other data of large bodies: go on with that version",
-               id);
-  if (body.keeps_history() && values[1] != static_cast<double>(atom->natoms))
+  const std::string data =
+      restart_data_of_fix(lmp, std::string("Fix large/body ") + id, restart_format, buf);
+  std::vector<double> values(data.size() / sizeof(double));
+  std::memcpy(values.data(), data.data(), data.size());
+  if (body.keeps_history() && values[0] != static_cast<double>(atom->natoms))
     error->all(FLERR,
                "Fix large/body {}: particles were added or deleted between read_restart and this "
                "command, so that contact history cannot be assigned: define the fix right after "
                "read_restart",
                id);
-  side.set_code(values[2]);
+  side.set_code(values[1]);
   const double *const of_vertices = &values[size_head + LargeBodyMotion::size_restart];
   const int size_vertices = static_cast<int>(*of_vertices);
   const bool same_motion = motion.from_array(&values[size_head]);
@@ -139,23 +128,20 @@ void FixLargeBody::restart(char *buf)
 int FixLargeBody::pack_restart(int i, double *buf)
 {
   const int size = restart_header + pack_exchange(i, buf + restart_header);
-  buf[0] = size;
-  buf[1] = ubuf(atom->tag[i]).d;
-  return size;
+  buf[size_particle_head] = ubuf(atom->tag[i]).d;
+  return complete_particle_data(buf, size);
 }
 
 void FixLargeBody::unpack_restart(int i, int nth)
 {
-  double *extra = atom->extra[i];
-  int m = 0;
-  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  if (ubuf(extra[m + 1]).i != atom->tag[i])
+  const double *data = particle_data(lmp, std::string("Fix large/body ") + id, i, nth);
+  if (ubuf(*data++).i != atom->tag[i])
     error->one(FLERR,
                "Fix large/body {}: particles were deleted or renumbered between read_restart and "
                "this command, so that contact history cannot be assigned: define the fix right "
                "after read_restart",
                id);
-  unpack_exchange(i, extra + m + restart_header);
+  body.history().unpack(i, data);
 }
 
 int FixLargeBody::size_restart(int i)

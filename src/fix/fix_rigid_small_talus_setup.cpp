@@ -7,6 +7,8 @@
 
 #include "fix_rigid_small_talus.h"
 
+#include "system/restart_data.h"
+
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -269,16 +271,14 @@ void FixRigidSmallTalus::find_body(int clump)
 }
 
 /* ----------------------------------------------------------------------
-   restart files: of each particle the layout of its row, whether a set-up has been made, the ID of its
-   body and its place in it, of the one that owns the body the state as well, number by number: the
-   struct of LAMMPS may change
+   restart files: of each particle whether a set-up has been made, the ID of its body and its place in
+   it, of the one that owns the body the state as well, number by number: the struct of LAMMPS may change
 ------------------------------------------------------------------------- */
 
 static constexpr tagint no_setup = -1;    // in the place of the ID
-static constexpr tagint layout =
-    -2;    // that of before began with the ID, and had a struct of LAMMPS
 
-static constexpr int row_begin = 7, num_numbers = 1 + 12 * 3 + 2 * 4, num_whole = 2 + 4;
+static constexpr int row_begin = Talus::size_particle_head + 5, num_numbers = 1 + 12 * 3 + 2 * 4,
+                     num_whole = 2 + 4;
 
 template <class Body, class Visit> static void for_each_number(Body &b, Visit visit)
 {
@@ -302,32 +302,25 @@ int FixRigidSmallTalus::maxsize_restart()
 int FixRigidSmallTalus::pack_restart(int i, double *buf)
 {
   const bool known = setupflag || restored, owns = bodyown[i] >= 0 && known;
-  buf[0] = size_restart(i);
-  buf[1] = ubuf(layout).d;
-  buf[2] = ubuf(known ? bodytag[i] : no_setup).d;
-  std::copy_n(displace[i], 3, buf + 3);
-  buf[6] = owns ? 1.0 : 0.0;
-  if (bodyown[i] < 0) return size_restart(i);
+  double *const row = buf + Talus::size_particle_head;
+  row[0] = ubuf(known ? bodytag[i] : no_setup).d;
+  std::copy_n(displace[i], 3, row + 1);
+  row[4] = owns ? 1.0 : 0.0;
+  if (bodyown[i] < 0) return Talus::complete_particle_data(buf, size_restart(i));
   Body &b = body[bodyown[i]];
   double *next = buf + row_begin;
   for_each_number(b, [&](const double *value, int n) { next = std::copy_n(value, n, next); });
   *next++ = b.natoms;
   *next++ = ubuf(b.image).d;
   std::copy_n(b.remapflag, 4, next);
-  return size_restart(i);
+  return Talus::complete_particle_data(buf, size_restart(i));
 }
 
 void FixRigidSmallTalus::unpack_restart(int i, int nth)
 {
-  const double *buf = atom->extra[i];
-  for (int k = 0; k < nth; k++) buf += static_cast<int>(buf[0]);
-  if (static_cast<tagint>(ubuf(buf[1]).i) != layout)
-    error->one(
-        FLERR,
-        "Fix {}: the restart file was written by a Talus older than 1.0: go on with that one, or "
-        "write a data file with it",
-        style);
-  const tagint tag = static_cast<tagint>(ubuf(buf[2]).i);
+  const double *const row =
+      Talus::particle_data(lmp, std::string("Fix ") + style + " " + id, i, nth);
+  const tagint tag = static_cast<tagint>(ubuf(row[0]).i);
   if (tag == no_setup) return;
   if (!restored) {    // the constructor has looked for bodies on its own
     nlocal_body = 0;
@@ -336,11 +329,11 @@ void FixRigidSmallTalus::unpack_restart(int i, int nth)
   }
   restored = true;
   bodytag[i] = tag;
-  std::copy_n(buf + 3, 3, displace[i]);
-  if (buf[6] == 0.0) return;
+  std::copy_n(row + 1, 3, displace[i]);
+  if (row[4] == 0.0) return;
   if (nlocal_body == nmax_body) grow_body();
   Body &b = body[nlocal_body];
-  const double *next = buf + row_begin;
+  const double *next = row - Talus::size_particle_head + row_begin;
   for_each_number(b, [&](double *value, int n) {
     std::copy_n(next, n, value);
     next += n;

@@ -33,6 +33,7 @@ FixStyle(shape/gran,FixShapeGran);
 
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
+#include "fix/image_triangles.h"
 #include "history/contact_lists.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
@@ -118,6 +119,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   double count_candidates() const override { return pairs.count_candidates(); }
 
  private:
+  int take_from(int i, const double *buf);
   // fix_shape_gran.cpp
   void set_sizes(int first, int last);
   void orient_new(int first, int last);
@@ -162,9 +164,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   Talus::SparseExchange exchange;
 
   std::vector<std::pair<std::string, int>> also_drawn;    ///< other fixes, and the type whose color
-  std::vector<double> image_values;
-  std::vector<double *> image_rows;
-  std::vector<int> image_kinds;
+  Talus::ImageTriangles drawn;
 };
 
 }    // namespace LAMMPS_NS

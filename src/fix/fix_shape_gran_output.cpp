@@ -161,35 +161,17 @@ DeepestInBody FixShapeGran::deepest_in(const LargeBody &body) const
                                                      : wall->second.points->deepest();
 }
 
-/* For dump image: the type, which may choose the color, and the corners. LAMMPS lights the side
-   from which these go round clockwise. Others are drawn along, for a picture has one fix. */
+/* For dump image. Others are drawn along, for a picture has one fix. */
 
 int FixShapeGran::image(int *&kinds, double **&values)
 {
-  constexpr int size = 10;
-  image_values.clear();
-  for_each_triangle([&](int i, const Triangle &one) {
-    image_values.push_back(atom->type[i]);
-    for (const int corner : {0, 2, 1}) {
-      const Vector3<double> &p = one.corner[corner];
-      image_values.insert(image_values.end(), {p.x, p.y, p.z});
-    }
-  });
+  drawn.clear();
+  for_each_triangle([&](int i, const Triangle &one) { drawn.add(atom->type[i], one); });
   for (const auto &[other, type] : also_drawn) {
     Fix *fix = modify->get_fix_by_id(other);
-    const int drawn = fix ? fix->image(kinds, values) : 0;
-    for (int k = 0; k < drawn; k++) {
-      if (kinds[k] != TALUS_IMAGE_TRIANGLE) continue;
-      image_values.push_back(type);
-      image_values.insert(image_values.end(), values[k] + 1, values[k] + size);
-    }
+    const int count = fix ? fix->image(kinds, values) : 0;
+    for (int k = 0; k < count; k++)
+      if (kinds[k] == TALUS_IMAGE_TRIANGLE) drawn.add_row(type, values[k]);
   }
-  const int count = static_cast<int>(image_values.size()) / size;
-  image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
-  image_rows.clear();
-  for (int k = 0; k < count; k++)
-    image_rows.push_back(&image_values[static_cast<std::size_t>(size) * k]);
-  kinds = image_kinds.data();
-  values = image_rows.data();
-  return count;
+  return drawn.hand_out(kinds, values);
 }

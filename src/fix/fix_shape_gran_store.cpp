@@ -6,6 +6,7 @@
 
 #include "base/state_exchange.h"
 #include "system/particle_count.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -20,8 +21,8 @@ using namespace Talus;
 
 namespace {
 
-constexpr double restart_version = 3.0;
-constexpr int restart_header = 2;    // of a particle: number of doubles, ID
+constexpr int restart_format = 4;
+constexpr int restart_header = size_particle_head + 1;    // of a particle: and its ID
 
 }    // namespace
 
@@ -77,6 +78,11 @@ int FixShapeGran::pack_exchange(int i, double *buf)
 
 int FixShapeGran::unpack_exchange(int i, double *buf)
 {
+  return take_from(i, buf);
+}
+
+int FixShapeGran::take_from(int i, const double *buf)
+{
   std::copy(buf, buf + 4, quat[i]);
   return 4 + histories.unpack(i, buf + 4);
 }
@@ -104,8 +110,7 @@ void FixShapeGran::exchange_state(StateExchange &x)
   set_maxexchange();
 }
 
-/* Restart files hold a version and the number of particles; of each particle the number of doubles,
-   its ID, and what it carries. LAMMPS does not move what it has read for us when particles are
+/* Restart files hold the number of particles; of each particle its ID, and what it carries. LAMMPS does not move what it has read for us when particles are
    deleted or added before this fix is defined: their number tells. */
 
 void FixShapeGran::write_restart(FILE *fp)
@@ -113,23 +118,16 @@ void FixShapeGran::write_restart(FILE *fp)
   keep_histories();    // on all ranks, before particles are packed
   const bigint particles = Talus::count_particles(lmp);
   if (comm->me) return;
-  const double head[] = {restart_version, static_cast<double>(particles)};
-  const int size = sizeof head;
-  fwrite(&size, sizeof size, 1, fp);
-  fwrite(head, size, 1, fp);
+  write_restart_data_of_fix(fp, restart_format, &particles, sizeof particles);
 }
 
 void FixShapeGran::restart(char *buf)
 {
-  double head[2];
-  std::memcpy(head, buf, sizeof head[0]);
-  if (head[0] != restart_version)
-    error->all(FLERR,
-               "Fix shape/gran {}: the restart file was written by another version of Talus: go on "
-               "with that version",
-               id);
-  std::memcpy(head, buf, sizeof head);
-  if (head[1] != static_cast<double>(atom->natoms))
+  const std::string data =
+      restart_data_of_fix(lmp, std::string("Fix shape/gran ") + id, restart_format, buf);
+  bigint particles;
+  std::memcpy(&particles, data.data(), sizeof particles);
+  if (particles != atom->natoms)
     error->all(FLERR,
                "Fix shape/gran {}: particles were added or deleted between read_restart and this "
                "command, so that orientations cannot be assigned: define the fix right after "
@@ -140,23 +138,20 @@ void FixShapeGran::restart(char *buf)
 int FixShapeGran::pack_restart(int i, double *buf)
 {
   const int size = restart_header + pack_exchange(i, buf + restart_header);
-  buf[0] = size;
-  buf[1] = ubuf(atom->tag[i]).d;
-  return size;
+  buf[size_particle_head] = ubuf(atom->tag[i]).d;
+  return complete_particle_data(buf, size);
 }
 
 void FixShapeGran::unpack_restart(int i, int nth)
 {
-  double *extra = atom->extra[i];
-  int m = 0;
-  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  if (ubuf(extra[m + 1]).i != atom->tag[i])
+  const double *data = particle_data(lmp, std::string("Fix shape/gran ") + id, i, nth);
+  if (ubuf(*data++).i != atom->tag[i])
     error->one(FLERR,
                "Fix shape/gran {}: particles were deleted or renumbered between read_restart and "
                "this command, so that orientations cannot be assigned: define the fix right after "
                "read_restart",
                id);
-  unpack_exchange(i, extra + m + restart_header);
+  take_from(i, data);
 }
 
 int FixShapeGran::size_restart(int i)

@@ -16,6 +16,7 @@
 #include "fix/plain_style.h"
 #include "fix/wall_law.h"
 #include "system/granular_system.h"
+#include "system/restart_data.h"
 #include "system/time_formula.h"
 
 #include "atom.h"
@@ -115,17 +116,24 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   int pack_restart(int i, double *buf) override
   {
     contacts.history.put_aside();
-    return Stock::pack_restart(i, buf);
+    return Stock::pack_restart(i, buf) ? append_digest(buf) : 0;
   }
   void unpack_restart(int i, int nth) override
   {
     contacts.history.put_aside();
+    if (this->use_history)
+      stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
+                          [this](const double *data) { return stock_size(data); });
     Stock::unpack_restart(i, nth);
   }
   int size_restart(int i) override
   {
     contacts.history.put_aside();
-    return Stock::size_restart(i);
+    return Stock::size_restart(i) + (this->use_history ? size_of_digest : 0);
+  }
+  int maxsize_restart() override
+  {
+    return Stock::maxsize_restart() + (this->use_history ? size_of_digest : 0);
   }
 
   // SystemFix
@@ -169,6 +177,8 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   BodyContacts contacts;
   WallLaw wall_law;
 
+  /// Of these data of a particle in a restart file: what the stock class would write, -1 if it cannot be.
+  virtual LAMMPS_NS::bigint stock_size(const double *data) const = 0;
   /// In init(), if the run is accelerated.
   virtual void begin_run() = 0;
   /// Its surface; where it is in this step.

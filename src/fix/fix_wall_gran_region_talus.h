@@ -19,8 +19,11 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
       AcceleratedWall(lmp, narg, arg, "wall/gran/region")
   {
   }
+  void write_restart(FILE *file) override;
+  void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override;
 
  protected:
+  bigint stock_size(const double *data) const override;
   void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }
   const Talus::WallSurface &surface() const override { return wall; }
   void place() override { wall.place(); }

@@ -26,6 +26,10 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
 #endif
 
  protected:
+  bigint stock_size(const double * /*data*/) const override
+  {
+    return 1 + size_history;
+  }
   void begin_run() override {}
   const Talus::WallSurface &surface() const override;
   void place() override;

@@ -2,11 +2,17 @@
 
 #include "fix/large_body_monitor.h"
 
+#include "fix/region_shape.h"
+
+#include "base/told_numbers.h"
 #include "system/contact_monitor.h"
+#include "system/granular_system.h"
+#include "system/system_shapes.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
 #include "fmt/format.h"
 #include "update.h"
 
@@ -15,15 +21,12 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
-std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindings()> find_worst,
-                                                        std::function<bool()> moves,
-                                                        const MeshShape *mesh_shape,
-                                                        const std::string &id)
+std::vector<RunMonitor::Check> LargeBodyMonitor::checks(LargeBody &large_body,
+                                                        std::function<bool()> moves)
 {
   using Finding = RunMonitor::Finding;
-  look = std::move(find_worst);
-  mesh = mesh_shape;
-  body = "Fix large/body " + id;
+  body = &large_body;
+  mesh = body->shape().as_mesh();
   const auto check = [this](double limit, std::function<Finding()> find,
                             void (LargeBodyMonitor::*warning)(const Finding &) const) {
     return RunMonitor::Check{limit, std::move(find), [this, warning](const Finding &found) {
@@ -32,12 +35,12 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
                              }};
   };
   RunMonitor::Check overlap = check(
-      largest_overlap, [this] { return finding(findings().overlap); },
+      visibly * largest_overlap, [this] { return finding(findings().overlap); },
       &LargeBodyMonitor::warn_overlap);
   overlap.worse = ContactMonitor::much_deeper;
   return {std::move(overlap),
           check(
-              largest_move,
+              visibly * largest_move,
               [this, moves = std::move(moves)] {
                 return moves() ? finding(findings().speed, update->dt) : Finding{};
               },
@@ -50,19 +53,23 @@ std::vector<RunMonitor::Check> LargeBodyMonitor::checks(std::function<BodyFindin
 
 const BodyFindings &LargeBodyMonitor::findings()
 {
-  if (step_of_look != update->ntimestep) worst = look();
+  if (step_of_look != update->ntimestep) worst = body->find_worst();
   step_of_look = update->ntimestep;
   return worst;
 }
 
-/* Details: the particle and, of a mesh, the number of the triangle in the file. */
+/* Details: the particle; of a mesh, the number of the triangle in the file; see stiffness_power(); whether
+   it has a shape. */
 
 RunMonitor::Finding LargeBodyMonitor::finding(const Worst &found, double factor) const
 {
   if (!(found.value > 0.0)) return {};
   const int triangle = mesh ? mesh->surface().number_in_file(found.part) + 1 : 0;
+  const int type = atom->type[found.particle];
+  const SystemShapes *const shapes = GranularSystem::of(lmp)->shapes();
   return {factor * found.value,
-          {static_cast<double>(atom->tag[found.particle]), static_cast<double>(triangle)}};
+          {static_cast<double>(atom->tag[found.particle]), static_cast<double>(triangle),
+           body->stiffness_power(type), shapes && shapes->is_shaped(type) ? 1.0 : 0.0}};
 }
 
 std::string LargeBodyMonitor::place(const RunMonitor::Finding &found) const
@@ -73,22 +80,42 @@ std::string LargeBodyMonitor::place(const RunMonitor::Finding &found) const
 
 void LargeBodyMonitor::warn(const std::string &text) const
 {
-  error->warning(FLERR, "{}: {}", body, text);
+  error->warning(FLERR, "Fix large/body {}: {}", body->command()->id, text);
+}
+
+/* What a user writes so that particles are touched on the other side. */
+
+std::string LargeBodyMonitor::other_side() const
+{
+  if (mesh) return "'two-sided', or the other one of 'inside' and 'outside'";
+  if (dynamic_cast<const RegionShape *>(&body->shape()))
+    return "the other one of 'side in' and 'side out' in the region command";
+  if (body->shape().has_one_normal()) return "the normal the other way round, or 'two-sided'";
+  return "the other one of 'inside' and 'outside'";
+}
+
+std::string LargeBodyMonitor::cure_of_overlap(const RunMonitor::Finding &found) const
+{
+  const bool begins = update->ntimestep == update->firststep,
+             deep = found.value > ContactMonitor::deep;
+  std::string cure = ContactMonitor::remedy_for(found.value, found.details[2]);
+  if (begins)
+    cure = "it is there from the beginning: move the particle or the body";
+  else if (deep)
+    cure = "no impact should go so deep: put particles where they are clear of the body, or use a "
+           "smaller time step or a higher stiffness if they hit it fast";
+  if (found.value <= 1.0) return cure;
+  return fmt::format("its center {} behind the surface: if particles belong on that side, use {}; "
+                     "otherwise {}",
+                     found.details[3] != 0.0 ? "may be" : "is", other_side(), cure);
 }
 
 void LargeBodyMonitor::warn_overlap(const RunMonitor::Finding &found) const
 {
   const bool begins = update->ntimestep == update->firststep;
-  std::string cure = ContactMonitor::remedy_for(found.value);
-  if (begins)
-    cure = "it is there from the beginning: move the particle or the body";
-  else if (found.value > deep)
-    cure =
-        "so deep it is pushed out on whatever side its center is: put particles where they are "
-        "clear of the body, or use a smaller time step or a higher stiffness if they hit it fast";
   warn(fmt::format("particle {:.0f} overlaps {} by {:.3g} of its radius at step {}{}; {}",
                    found.details[0], place(found), found.value, update->ntimestep,
-                   begins ? "" : " or since the last rebuild", cure));
+                   begins ? "" : " or since the last rebuild", cure_of_overlap(found)));
 }
 
 void LargeBodyMonitor::warn_move(const RunMonitor::Finding &found) const
@@ -103,15 +130,15 @@ void LargeBodyMonitor::warn_passage(const RunMonitor::Finding &found) const
   const bool unfelt = found.value > 1.5;
   warn(fmt::format("particle {:.0f} went through {} before step {}; {}", found.details[0],
                    place(found), update->ntimestep,
-                   unfelt ? "the mesh does not act on the side that it came from: use 'two-sided', "
-                            "or the other one of 'inside' and 'outside'"
-                          : "the contact is too soft, or the time step too long, for so hard an "
-                            "impact: use a higher stiffness or a smaller time step"));
+                   unfelt
+                       ? "the mesh does not act on the side that it came from: use " + other_side()
+                       : "the contact is too soft, or the time step too long, for so hard an "
+                         "impact: use a higher stiffness or a smaller time step"));
 }
 
 void LargeBodyMonitor::warn_idle(const RunMonitor::Finding &found) const
 {
   warn(fmt::format("particle {:.0f} is at {} at step {}, but on the side where the mesh does not "
-                   "act: move it, or use 'two-sided', or the other one of 'inside' and 'outside'",
-                   found.details[0], place(found), update->ntimestep));
+                   "act: move it, or use {}",
+                   found.details[0], place(found), update->ntimestep, other_side()));
 }

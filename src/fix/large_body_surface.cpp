@@ -2,7 +2,6 @@
 
 #include "fix/large_body_surface.h"
 
-#include "system/lammps_compat.h"
 #include "system/present_time.h"
 
 #include "comm.h"
@@ -21,7 +20,6 @@ using namespace Talus;
 namespace {
 
 enum Field { NORMAL, SHEAR, FORCE = 4, WORK = 7 };
-constexpr int size_image = 10;    // type and three corners
 
 }    // namespace
 
@@ -153,24 +151,10 @@ std::vector<Triangle> LargeBodySurface::triangles_in_space(const BodyFrame &fram
 int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&values)
 {
   const std::vector<Triangle> all = triangles_in_space(frame);
-  image_values.clear();
-  for (std::size_t t = comm->me; t < all.size(); t += comm->nprocs) {
-    image_values.push_back(1.0);    // the color of particles of type 1, if it is by type
-    // LAMMPS lights the side from which the corners go round clockwise
-    for (const int corner : {0, 2, 1}) {
-      const Vector3<double> &p = all[t].corner[corner];
-      image_values.push_back(p.x);
-      image_values.push_back(p.y);
-      image_values.push_back(p.z);
-    }
-  }
-  const int count = static_cast<int>(image_values.size()) / size_image;
-  image_kinds.assign(count, TALUS_IMAGE_TRIANGLE);
-  image_rows.clear();
-  for (int k = 0; k < count; k++) image_rows.push_back(&image_values[size_image * k]);
-  kinds = image_kinds.data();
-  values = image_rows.data();
-  return count;
+  constexpr double type = 1.0;    // the color of its particles, if it is by type
+  drawn.clear();
+  for (std::size_t t = comm->me; t < all.size(); t += comm->nprocs) drawn.add(type, all[t]);
+  return drawn.hand_out(kinds, values);
 }
 
 void LargeBodySurface::add_loads(VtkPolyData &picture, const BodyFrame &frame)

@@ -17,6 +17,7 @@
 #include "body/contact/body_batch.h"
 #include "body/motion/body_state.h"
 #include "body/shape/mesh_shape.h"
+#include "fix/image_triangles.h"
 #include "vtk/poly_data.h"
 
 #include "pointers.h"
@@ -90,9 +91,7 @@ class LargeBodySurface : protected Pointers {
   std::vector<double> loads, loads_of_all;
   bool reduced = false;
 
-  std::vector<int> image_kinds;
-  std::vector<double> image_values;
-  std::vector<double *> image_rows;
+  Talus::ImageTriangles drawn;
 };
 
 }    // namespace LAMMPS_NS

@@ -2,12 +2,16 @@
 
 #include "start_time.h"
 
+#include "system/restart_data.h"
+
 #include "comm.h"
 #include "error.h"
 
 #include <cstring>
 
 using namespace LAMMPS_NS;
+
+static constexpr int restart_format = 2;
 
 double StartTime::next_kick(double dt)
 {
@@ -20,17 +24,14 @@ void StartTime::write_restart(FILE *fp, double half_way) const
 {
   const double state[2] = {(half ? 1.0 : 0.0) + (half_way > 0.0 ? 2.0 : 0.0),
                            half ? time_behind : half_way};
-  const int size = sizeof(state);
-  if (comm->me == 0) {
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(state, sizeof(double), 2, fp);
-  }
+  if (comm->me == 0) Talus::write_restart_data_of_fix(fp, restart_format, state, sizeof(state));
 }
 
 double StartTime::restart(const char *buf)
 {
   double state[2];
-  memcpy(state, buf, sizeof(state));
+  memcpy(state, Talus::restart_data_of_fix(lmp, command, restart_format, buf).data(),
+         sizeof(state));
   const bool is_half_way = state[0] >= 2.0, was_half = state[0] - (is_half_way ? 2.0 : 0.0) > 0.0;
 
   if (was_half == half) {

@@ -47,7 +47,7 @@ class ContactHistory {
   HistoryValues values(std::int64_t pair) const { return rows.values(places[pair]); }
   void set_values(std::int64_t pair, const HistoryValues &values)
   {
-    rows.read(places[pair], values.data());
+    rows.set_values(places[pair], values);
   }
   /// Of each pair.
   int num_records() const { return rows.records(); }

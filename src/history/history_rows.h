@@ -21,8 +21,8 @@ class HistoryRows {
  public:
   static constexpr int most_records = most_history_values / 4;
 
-  /// `width` records of each row, at least one; numbers of rows that exist stay, further ones are
-  /// zero.
+  /// `width` records of each row, 1 to most_records (HistoryLayout has no more); numbers of rows that
+  /// exist stay, further ones are zero.
   void keep(int width)
   {
     for (int k = records(); k < width; k++) planes[k].assign(size(), Record{});
@@ -92,12 +92,19 @@ class HistoryRows {
     for (int k = 0; k < num_records; k++)
       std::memcpy(&planes[k][row], from + 4L * k, sizeof(Record));
   }
+  /// As values of which those beyond records() are zero, and back. Compilers see that these do not go
+  /// beyond the end.
   HistoryValues values(std::size_t row) const
   {
     HistoryValues all{};
-    for (int k = 0; k < most_records; k++)    // compilers see that it does not go beyond the end
+    for (int k = 0; k < most_records; k++)
       if (k < num_records) std::memcpy(&all[4L * k], &planes[k][row], sizeof(Record));
     return all;
+  }
+  void set_values(std::size_t row, const HistoryValues &all)
+  {
+    for (int k = 0; k < most_records; k++)
+      if (k < num_records) std::memcpy(&planes[k][row], &all[4L * k], sizeof(Record));
   }
 
   double memory_usage() const

@@ -55,7 +55,7 @@ void NamedContacts::insert(std::int64_t a, std::int64_t b, const HistoryValues &
     histories.add();
     cell = static_cast<std::uint32_t>(size());
   }
-  histories.read(cell - 1, (a < b ? history : mirrored(history)).data());
+  histories.set_values(cell - 1, a < b ? history : mirrored(history));
 }
 
 FoundHistory NamedContacts::find(std::int64_t a, std::int64_t b) const

@@ -2,6 +2,9 @@
 
 #include "material/contact_spec.h"
 
+#include <cstdio>
+#include <initializer_list>
+
 namespace Talus {
 
 ContactCoefficients contact_coefficients(const ContactSpec &a, const ContactSpec &b,
@@ -13,6 +16,31 @@ ContactCoefficients contact_coefficients(const ContactSpec &a, const ContactSpec
     a.law[stage].mix({a, b, rule}, row.c + a.law.first_coefficient(stage));
   }
   return row;
+}
+
+/* Numbers of the normal direction first, then stiffness and damping of the tangential one. */
+
+std::string ContactSides::describe(const std::string &note) const
+{
+  const ContactCoefficients row = coefficients();
+  std::string text = describe_law(law()) + note + ";";
+  const auto add = [&](Stage stage, Shown shown) {
+    const Law &one = law()[stage];
+    for (int n = 0; n < one.num_coefficients; n++) {
+      if (one.coefficients[n].shown != shown) continue;
+      char number[32];
+      snprintf(number, sizeof number, " %.6g", law().coefficients(stage, row)[n]);
+      text += std::string(" ") + one.coefficients[n].name + number;
+    }
+  };
+  const auto always = [&](std::initializer_list<Stage> stages) {
+    for (Stage stage : stages) add(stage, Shown::ALWAYS);
+  };
+  always({Stage::NORMAL, Stage::DAMPING});
+  if (law().tangential().reads_stiffness)
+    for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
+  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION, Stage::HEAT});
+  return text + (Mixing{a, b, rule}.limits_damping() ? " limit_damping" : "");
 }
 
 }    // namespace Talus

@@ -58,20 +58,6 @@ class Reader {
 
 }    // namespace
 
-std::string problem_of_law_file(std::int32_t mark, std::int32_t version)
-{
-  const std::string needed =
-      std::to_string(oldest_law_file) + " to " + std::to_string(law_file_version);
-  if (mark != law_file_mark)
-    return "the contact laws of the restart file were written before they had versions, this Talus "
-           "reads versions " +
-           needed + ": " + cure;
-  if (version < oldest_law_file || version > law_file_version)
-    return "the contact laws of the restart file are of version " + std::to_string(version) +
-           ", this Talus reads versions " + needed + ": " + cure;
-  return "";
-}
-
 std::string to_bytes(const ContactSpec &spec)
 {
   std::string bytes;
@@ -94,8 +80,7 @@ ContactSpec from_bytes(const std::string &bytes)
     const Law *chosen = find_law(stage, name);
     if (!chosen)
       throw std::runtime_error("the restart file has the " + std::string(name_of(stage)) +
-                               " law '" + name + "' (version " + std::to_string(law_file_version) +
-                               "), which this Talus does not have: " + cure);
+                               " law '" + name + "', which this Talus does not have: " + cure);
     spec.law.choose(stage, chosen);
   }
   while (!reader.at_end()) {

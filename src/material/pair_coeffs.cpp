@@ -2,14 +2,25 @@
 
 #include "material/pair_coeffs.h"
 
+#include "base/number_text.h"
 #include "base/simd.h"
 #include "laws/second_order_laws.h"
 
 #include <algorithm>
-#include <cstdio>
+<<<<<<< HEAD
+=======
 #include <initializer_list>
+>>>>>>> files
 
 namespace Talus {
+namespace {
+
+void take_moduli(ContactSpec &to, const ContactSpec &from)
+{
+  for (const char *name : {"E", "nu"}) to.given[name] = from.given.value(name);
+}
+
+}    // namespace
 
 void PairCoeffs::resize(int ntypes)
 {
@@ -33,10 +44,34 @@ const ContactLaw &PairCoeffs::law(int i, int j) const
   return (is_set(i, j) ? spec(i, j) : spec(i, i)).law;
 }
 
+ContactSides PairCoeffs::sides(int i, int j) const
+{
+  if (!is_set(i, j)) return {spec(i, i), spec(j, j), mix};
+  ContactSides pair{spec(i, j), spec(i, j), mix};
+  if (takes_moduli_of_types(pair.a)) {
+    take_moduli(pair.a, spec(i, i));
+    take_moduli(pair.b, spec(j, j));
+  }
+  return pair;
+}
+
 ContactCoefficients PairCoeffs::coefficients(int i, int j) const
 {
-  if (is_set(i, j)) return contact_coefficients(spec(i, j), spec(i, j), mix);
-  return contact_coefficients(spec(i, i), spec(j, j), mix);
+  return sides(i, j).coefficients();
+}
+
+std::string PairCoeffs::note_on(int i, int j) const
+{
+  if (!is_set(i, j)) return "; mixed";
+  return takes_moduli_of_types(spec(i, j)) ? "; E and nu of both types" : "";
+}
+
+int PairCoeffs::type_without_moduli(int i, int j) const
+{
+  if (!is_set(i, j) || !takes_moduli_of_types(spec(i, j))) return 0;
+  for (int type : {i, j})
+    if (const ContactSpec *one = own(type); !one || !one->is_material()) return type;
+  return 0;
 }
 
 bool PairCoeffs::conducts_heat() const
@@ -83,10 +118,12 @@ LawTable PairCoeffs::table(int order) const
   return table;
 }
 
-/* Numbers of the normal direction first, then stiffness and damping of the tangential one. */
-
 std::string PairCoeffs::describe_pair(int i, int j) const
 {
+<<<<<<< HEAD
+  return "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
+         sides(i, j).describe(note_on(i, j));
+=======
   const ContactLaw &pair_law = law(i, j);
   const ContactCoefficients row = coefficients(i, j);
   std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
@@ -95,9 +132,8 @@ std::string PairCoeffs::describe_pair(int i, int j) const
     const Law &one = pair_law[stage];
     for (int n = 0; n < one.num_coefficients; n++) {
       if (one.coefficients[n].shown != shown) continue;
-      char number[32];
-      snprintf(number, sizeof number, " %.6g", pair_law.coefficients(stage, row)[n]);
-      text += std::string(" ") + one.coefficients[n].name + number;
+      text += std::string(" ") + one.coefficients[n].name + " " +
+              number_text(pair_law.coefficients(stage, row)[n]);
     }
   };
   const auto always = [&](std::initializer_list<Stage> stages) {
@@ -110,6 +146,7 @@ std::string PairCoeffs::describe_pair(int i, int j) const
   const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
   const ContactSpec &b = is_set(i, j) ? a : spec(j, j);
   return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");
+>>>>>>> files
 }
 
 std::string PairCoeffs::describe(const LawTable &table) const

@@ -43,11 +43,20 @@ class PairCoeffs {
   /// also agree on whether kt and gt are numbers or NULL: the two have no common meaning.
   bool can_mix(int i, int j) const;
 
+  /// The pair is set with the moduli of types, and this one of the two has none; 0: no such pair.
+  int type_without_moduli(int i, int j) const;
+
   /// The pair is set or can be mixed; the functions below need that.
-  bool known(int i, int j) const { return is_set(i, j) || can_mix(i, j); }
+  bool known(int i, int j) const
+  {
+    return is_set(i, j) ? type_without_moduli(i, j) == 0 : can_mix(i, j);
+  }
 
   const ContactLaw &law(int i, int j) const;
+  ContactSides sides(int i, int j) const;
   ContactCoefficients coefficients(int i, int j) const;
+  /// For descriptions: where numbers are from that no pair_coeff of the pair has; "": nowhere else.
+  std::string note_on(int i, int j) const;
   /// Any pair that is set conducts heat.
   bool conducts_heat() const;
   /// How far a contact of particles with these radii lasts beyond zero overlap (length).

@@ -55,6 +55,16 @@ void SizeDistribution::parse(Words &words)
     shares.push_back(sum);
   }
   for (double &share : shares) share /= sum;
+  if (kind == Kind::LOGNORMAL && hi > lo && !(share_to(hi) > share_to(lo)))
+    words.fail(by_mass ? 2 : 1,
+               "of this lognormal distribution next to nothing is between lo and hi");
+}
+
+double SizeDistribution::share_to(double d) const
+{
+  constexpr double far = 3.0;    // of lo from the median, in sigma: the share above is a thousandth
+  const double x = std::log(d / median) / sigma;
+  return std::log(lo / median) > far * sigma ? -normal_share(-x) : normal_share(x);
 }
 
 double SizeDistribution::quantile(double q) const
@@ -68,14 +78,18 @@ double SizeDistribution::quantile(double q) const
     const double at_lo = 1.0 / (lo * lo), at_hi = 1.0 / (hi * hi);
     return std::clamp(1.0 / std::sqrt(at_lo - q * (at_lo - at_hi)), lo, hi);
   }
-  const auto share_below = [this](double d) { return normal_share(std::log(d / median) / sigma); };
-  const double below = share_below(lo), wanted = below + q * (share_below(hi) - below);
+  const double below = share_to(lo), wanted = below + q * (share_to(hi) - below);
   double least = lo, most = hi;
   for (int k = 0; k < 60; k++) {
     const double middle = 0.5 * (least + most);
-    (share_below(middle) < wanted ? least : most) = middle;
+    (share_to(middle) < wanted ? least : most) = middle;
   }
   return 0.5 * (least + most);
+}
+
+double SizeDistribution::smallest() const
+{
+  return kind == Kind::DISCRETE ? *std::min_element(sizes.begin(), sizes.end()) : lo;
 }
 
 double SizeDistribution::largest() const

@@ -22,6 +22,7 @@ class SizeDistribution {
 
   /// The diameter (length) that the share q of the number of spheres does not exceed, 0 < q < 1.
   double quantile(double q) const;
+  double smallest() const;
   double largest() const;
   /// How many spheres have that volume together; it may be less than 1. An estimate beyond 1e5.
   double count_of(double volume) const;
@@ -30,6 +31,9 @@ class SizeDistribution {
 
  private:
   double mean_volume(int count) const;
+  /// Lognormal: the share of its number that is below d, or, far above its median, minus that above: differences of
+  /// shares are what is needed, and each is exact where it is small.
+  double share_to(double d) const;
 
   enum class Kind { NONE, UNIFORM, LOGNORMAL, DISCRETE };
 

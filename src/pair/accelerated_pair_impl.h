@@ -8,6 +8,7 @@
 #include "pair/accelerated_pair.h"
 #include "pair/pair_of_system_impl.h"
 #include "system/fix_list.h"
+#include "system/private_members.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -64,11 +65,16 @@ template <class Stock> void AcceleratedPair<Stock>::init_style()
   keep_stock_history(stock_history());
 }
 
-/* In restart files; again if models have changed. */
+/* In restart files; again if models have changed. The number in the ID counts the pair styles of a process: a file has
+   that of the process which wrote it. */
 
 template <class Stock> void AcceleratedPair<Stock>::keep_stock_history(const std::string &values)
 {
   if (values == kept_values) return;
+  const std::string in_file = Talus::untaken_restart_data(
+      *this->modify, history_id.substr(0, history_id.find_last_not_of("0123456789") + 1));
+  if (kept_values.empty() && !in_file.empty() && !this->modify->get_fix_by_id(in_file))
+    history_id = in_file;
   if (!kept_values.empty()) this->modify->delete_fix(history_id);
   if (!values.empty()) this->modify->add_fix(history_id + " all TALUS_PAIR_HISTORY" + values);
   kept_values = values;

@@ -2,6 +2,7 @@
 
 #include "pair/pair_gran_penalty.h"
 
+#include "base/told_numbers.h"
 #include "pair/pair_of_system_impl.h"
 
 #include "atom.h"
@@ -73,7 +74,7 @@ void PairGranPenalty::init_style()
     error->all(FLERR,
                "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
                "which are used because of {}: use a skin of at least {:g} in the neighbor command",
-               lists, system->range().largest_pulloff_distance());
+               lists, rounded_up(system->range().largest_pulloff_distance(), 6));
 }
 
 void PairGranPenalty::check_host()
@@ -117,6 +118,12 @@ double PairGranPenalty::init_one(int i, int j)
                  "add 'pair_coeff {} {} ...'",
                  i, j, i, j);
   }
+  if (const int type = pair_coeffs.type_without_moduli(i, j))
+    error->all(FLERR,
+               "Pair style gran/penalty: E and nu of types {} and {} are NULL, and type {} has no "
+               "material to take them from: set 'pair_coeff {} {}' with a material law, or write "
+               "numbers",
+               i, j, type, type, type);
   return system->range().cutoff(i, j);
 }
 

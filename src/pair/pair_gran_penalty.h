@@ -28,8 +28,6 @@ class PairGranPenalty : public PairOfSystem<Pair> {
 
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
-  void write_restart_settings(FILE *) override;
-  void read_restart_settings(FILE *) override;
 
   /// Of the masses that contacts feel.
   int pack_forward_comm(int, int *, double *, int, int *) override;
@@ -44,7 +42,6 @@ class PairGranPenalty : public PairOfSystem<Pair> {
  private:
   void allocate();
   void check_host();
-  std::int32_t read_number(FILE *fp);
 };
 
 }    // namespace LAMMPS_NS

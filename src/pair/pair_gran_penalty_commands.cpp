@@ -50,6 +50,11 @@ void PairGranPenalty::coeff(int narg, char **arg)
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) {
+      if (i == j && takes_moduli_of_types(parsed))
+        error->all(FLERR,
+                   "pair_coeff gran/penalty: E and nu = NULL are those of types I and J in "
+                   "'pair_coeff I J' with I < J: write numbers for types {} and {}",
+                   i, i);
       system->laws().set(i, j, parsed);
       setflag[i][j] = 1;
       count++;

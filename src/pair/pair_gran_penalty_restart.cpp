@@ -6,13 +6,14 @@
 #include "pair/pair_gran_penalty.h"
 
 #include "material/law_file.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "utils.h"
 
 #include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -21,46 +22,70 @@ using namespace Talus;
 
 namespace {
 
-void write_number(std::int32_t number, FILE *fp)
+constexpr int restart_format = 4;
+
+/* Numbers of 4 bytes, and strings behind their size. */
+
+void put(std::string &to, std::int32_t number)
 {
-  fwrite(&number, sizeof number, 1, fp);
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  to.append(raw, sizeof raw);
+}
+
+std::int32_t take_number(const char *&from)
+{
+  std::int32_t number;
+  std::memcpy(&number, from, sizeof number);
+  from += sizeof number;
+  return number;
+}
+
+std::string take_string(const char *&from)
+{
+  const std::int32_t size = take_number(from);
+  from += size;
+  return {from - size, from};
 }
 
 }    // namespace
 
-/* Read by the first rank, known to all. */
-
-std::int32_t PairGranPenalty::read_number(FILE *fp)
-{
-  std::int32_t number = 0;
-  if (comm->me == 0) utils::sfread(FLERR, &number, sizeof number, 1, fp, nullptr, error);
-  MPI_Bcast(&number, 1, MPI_INT32_T, 0, world);
-  return number;
-}
+/* The version of Talus, the rule of mixing, the number of types; and of each pair of types its law, an empty string if it is mixed. */
 
 void PairGranPenalty::write_restart(FILE *fp)
 {
-  write_restart_settings(fp);
+  std::string data;
+  put(data, talus_version);
+  put(data, static_cast<std::int32_t>(system->laws().mix));
+  put(data, atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       const PairCoeffs &pair_coeffs = system->laws();
       const std::string bytes = pair_coeffs.is_set(i, j) ? to_bytes(pair_coeffs.spec(i, j)) : "";
-      write_number(static_cast<std::int32_t>(bytes.size()), fp);    // 0: mixed
-      fwrite(bytes.data(), 1, bytes.size(), fp);
+      put(data, static_cast<std::int32_t>(bytes.size()));
+      data += bytes;
     }
+  write_restart_data(fp, restart_format, data.data(), data.size());
 }
 
 void PairGranPenalty::read_restart(FILE *fp)
 {
-  read_restart_settings(fp);
+  const std::string data = read_restart_data(lmp, "Pair style gran/penalty", restart_format, fp);
+  const char *from = data.data();
+  if (take_number(from) > talus_version && comm->me == 0)
+    error->warning(FLERR, "Pair style gran/penalty: the restart file was written by a newer Talus");
+  system->laws().mix = static_cast<FrictionMix>(take_number(from));
+  if (const std::int32_t types = take_number(from); types != atom->ntypes)
+    error->all(FLERR,
+               "Pair style gran/penalty: the restart file is damaged: it has laws of {} types, and "
+               "{} types: use "
+               "another copy or an earlier file",
+               types, atom->ntypes);
   if (!allocated) allocate();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
-      const std::int32_t size = read_number(fp);
-      if (size == 0) continue;
-      std::string bytes(size, '\0');
-      if (comm->me == 0) utils::sfread(FLERR, bytes.data(), 1, size, fp, nullptr, error);
-      MPI_Bcast(bytes.data(), size, MPI_BYTE, 0, world);
+      const std::string bytes = take_string(from);
+      if (bytes.empty()) continue;
       try {
         system->laws().set(i, j, from_bytes(bytes));
       } catch (const std::runtime_error &problem) {
@@ -68,25 +93,4 @@ void PairGranPenalty::read_restart(FILE *fp)
       }
       setflag[i][j] = 1;
     }
-}
-
-void PairGranPenalty::write_restart_settings(FILE *fp)
-{
-  write_number(law_file_mark, fp);
-  write_number(law_file_version, fp);
-  write_number(talus_version, fp);
-  write_number(static_cast<std::int32_t>(system->laws().mix), fp);
-}
-
-void PairGranPenalty::read_restart_settings(FILE *fp)
-{
-  const std::int32_t mark = read_number(fp);
-  const std::string unmarked = problem_of_law_file(mark, law_file_version);
-  if (!unmarked.empty()) error->all(FLERR, "Pair style gran/penalty: {}", unmarked);
-  const std::int32_t version = read_number(fp);
-  const std::string complaint = problem_of_law_file(mark, version);
-  if (!complaint.empty()) error->all(FLERR, "Pair style gran/penalty: {}", complaint);
-  if (version > oldest_law_file && read_number(fp) > talus_version && comm->me == 0)
-    error->warning(FLERR, "Pair style gran/penalty: the restart file was written by a newer Talus");
-  system->laws().mix = static_cast<FrictionMix>(read_number(fp));
 }

@@ -7,6 +7,7 @@
 
 #include "base/vector3.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct ShapeContact {
   std::uint32_t name;
   /// Of a mesh or vessel: which of its surfaces is touched, a second half of the name.
   std::uint32_t surface = 0;
+  /// The name is a place_name(): that of the next step is the nearest one of the same surface.
+  bool is_named_by_place = false;
   int part = 0;    ///< of a large body, see SurfaceContact
 };
 
@@ -46,6 +49,30 @@ inline std::uint32_t contact_name(ContactParts parts, int of_a, int of_b)
 inline ContactParts parts_of(std::uint32_t name)
 {
   return static_cast<ContactParts>(name >> 30);
+}
+
+/// The name of a place on a smooth surface that is touched by a smooth shape: by the direction (a unit vector in the
+/// frame of the large body) in which it lies from the center of the shape, in 30 bits, on an octahedron.
+inline std::uint32_t place_name(const Vector3<double> &direction)
+{
+  const double x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z),
+               sum = x + y + z;
+  const bool is_above = direction.z >= 0.0;    // the lower half is folded outward
+  const double u = (is_above ? x : sum - y) / sum, v = (is_above ? y : sum - x) / sum;
+  const auto code = [](double part, double sign) {
+    return static_cast<int>((sign < 0.0 ? 1.0 - part : 1.0 + part) * 16383.0 + 0.5);
+  };
+  return contact_name(ContactParts::WHOLE, code(u, direction.x), code(v, direction.y));
+}
+/// That direction, of any length.
+inline Vector3<double> direction_of_place(std::uint32_t name)
+{
+  const auto part = [](std::uint32_t code) { return static_cast<double>(code) / 16383.0 - 1.0; };
+  const double u = part(name >> 15 & 0x7fffU), v = part(name & 0x7fffU),
+               z = 1.0 - std::abs(u) - std::abs(v);
+  if (z >= 0.0) return {u, v, z};
+  return {u < 0.0 ? std::abs(v) - 1.0 : 1.0 - std::abs(v),
+          v < 0.0 ? std::abs(u) - 1.0 : 1.0 - std::abs(u), z};
 }
 
 /// The name that a contact has when a and b are exchanged.

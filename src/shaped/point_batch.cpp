@@ -16,6 +16,10 @@ std::string PointBatch::refusal(const ContactLaw &law)
   if (law.normal().lasts_beyond_contact)
     return std::string("has the normal law ") + law.normal().name +
            ", which lasts beyond contact: use dmt or another law";
+  if (law.history().size > point_history_size)
+    return "has laws with " + std::to_string(law.history().size) +
+           " values of history, and points of shapes keep " + std::to_string(point_history_size) +
+           ": take another tangential law";
   if (law.synchronized())
     return std::string("has the tangential law ") + law.tangential().name +
            ", whose normal is that of half a step before: leave 'synchronized_verlet' out";

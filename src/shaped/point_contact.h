@@ -8,6 +8,7 @@
 #include "laws/contact_energy.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace Talus {
@@ -22,9 +23,10 @@ struct PointContact {
   // geometry, see ShapeContact
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
   double overlap, weight, energy;
-  double inverse_radius;    ///< 1/R_eff
-  std::uint64_t name;       ///< with the surface of a large body in the upper half
-  int part;                 ///< of a large body, see SurfaceContact; -1 if it has none
+  double inverse_radius;     ///< 1/R_eff
+  std::uint64_t name;        ///< with the surface of a large body in the upper half
+  int part;                  ///< of a large body, see SurfaceContact; -1 if it has none
+  bool is_named_by_place;    ///< see ShapeContact
 
   // motion
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`
@@ -44,6 +46,10 @@ struct PointContact {
 /// values are zero, as those of laws without history, and nothing was added: a point that is not
 /// found there begins with zeros.
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to);
+/// Of the points of a particle with one surface those that are named by their place take the histories of the points
+/// that had been nearest, each that of one: of `before`, all points of the particle with this large body.
+void continue_at_places(PointContact *points, std::size_t count, const PointContact *before,
+                        std::size_t count_before);
 /// A point that has only a history so far, from such a list.
 PointContact stored_point(const ContactLists::Contact &one);
 

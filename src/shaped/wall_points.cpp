@@ -96,6 +96,7 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
                                              task.laws.force_exponent(row)};
   for (int w = 0; w < task.surfaces.size(); w++) {
     if (!task.surfaces.touch(w, seen_particle, chunk.found)) continue;
+    const std::size_t first = chunk.points.size();
     PointContact point{};
     point.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
     point.row = row;
@@ -118,15 +119,19 @@ void WallPoints::find_points(const Task &task, Chunk &chunk, int n, std::size_t 
       }
       point.velocity = v;
       if (task.step.account) point.velocity_change = change_seen(task, i, place);
+      point.is_named_by_place = one.is_named_by_place;
       point.history = {};
-      for (std::size_t k = known; k < old; k++)
+      for (std::size_t k = known; !one.is_named_by_place && k < old; k++)
         if (chunk.before[k].name == point.name) point.history = chunk.before[k].history;
-      if (frame.vertices) see_vertices(task, point);
       chunk.points.push_back(point);
       chunk.of_point.push_back(n);
       const double ratio = one.overlap / particle.shape().inscribed_radius();
       if (ratio > chunk.deepest.overlap_ratio) chunk.deepest = {ratio, i, point.part};
     }
+    PointContact *const those = chunk.points.data() + first;
+    const std::size_t count = chunk.points.size() - first;
+    continue_at_places(those, count, chunk.before.data() + known, old - known);
+    for (std::size_t k = 0; frame.vertices && k < count; k++) see_vertices(task, those[k]);
   }
 }
 

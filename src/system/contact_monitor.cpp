@@ -7,6 +7,7 @@
 
 #include "atom.h"
 #include "base/in_parallel.h"
+#include "base/told_numbers.h"
 #include "comm.h"
 #include "error.h"
 #include "shaped/shape_table.h"
@@ -28,37 +29,50 @@ std::vector<RunMonitor::Check> ContactMonitor::checks(std::function<DeepestConta
       return true;
     };
   };
-  return {
-      {largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
-       say_once(&ContactMonitor::warn_overlap), much_deeper},
-      {largest_move, [this] { return largest_own_move(); }, say_once(&ContactMonitor::warn_move)}};
+  return {{visibly * largest_overlap, [this, find_deepest] { return overlap_of(find_deepest()); },
+           say_once(&ContactMonitor::warn_overlap), much_deeper},
+          {visibly * largest_move, [this] { return largest_own_move(); },
+           say_once(&ContactMonitor::warn_move)}};
 }
 
 RunMonitor::Finding ContactMonitor::overlap_of(const DeepestContact &deepest) const
 {
   if (!(deepest.overlap_ratio > DeepestContact::watched)) return {};
   const auto [low, high] = std::minmax(atom->tag[deepest.i], atom->tag[deepest.j]);
-  return {deepest.overlap_ratio, {static_cast<double>(low), static_cast<double>(high)}};
+  const auto [i, j] = std::minmax(atom->type[deepest.i], atom->type[deepest.j]);
+  return {deepest.overlap_ratio,
+          {static_cast<double>(low), static_cast<double>(high),
+           GranularSystem::of(lmp)->laws().sides(i, j).stiffness_power()}};
 }
 
-/* The overlap of an impact is that of a spring: ~ 1/sqrt(k), as the time step should be. */
+/* Of the overlap as it is told. The time step follows the duration of the impact, which is ~ the
+   overlap at a given speed. */
 
-std::string ContactMonitor::remedy_for(double overlap)
+std::string ContactMonitor::remedy_for(double overlap, double power)
 {
-  const double softer = overlap / largest_overlap;
-  return fmt::format("contact laws are made for overlaps below {}: for impacts a stiffness {:.2g} "
-                     "times as high, with {:.2g} of the time step, would do; or look for particles "
-                     "that overlap from the beginning. Said once, unless it becomes much worse",
-                     largest_overlap, softer * softer, 1.0 / softer);
+  const double times = rounded_up(overlap, 3) / largest_overlap;
+  return fmt::format("contact laws are made for overlaps below {}: for impacts a stiffness (kn or "
+                     "E) {:.2g} times as high, with {:.2g} of the time step, would do; or look for "
+                     "particles that overlap from the beginning. Said once, unless it becomes much "
+                     "worse",
+                     largest_overlap, rounded_up(std::pow(times, power), 2),
+                     rounded_down(1.0 / times, 2));
 }
 
 void ContactMonitor::warn_overlap(const RunMonitor::Finding &worst) const
 {
+  const bool begins = update->ntimestep == update->firststep;
+  std::string cure = remedy_for(worst.value, worst.details[2]);
+  if (begins)
+    cure = "they do from the beginning: place them further apart";
+  else if (worst.value > deep)
+    cure = "no impact should go so deep: look for particles that are put into others, or use a "
+           "smaller time step and a higher stiffness";
   error->warning(FLERR,
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
-                 "radius at step {} or since the last rebuild; {}",
+                 "radius at step {}{}; {}",
                  GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
-                 worst.value, update->ntimestep, remedy_for(worst.value));
+                 worst.value, update->ntimestep, begins ? "" : " or since the last rebuild", cure);
 }
 
 /* The fastest that a point of the surface may be, over the radius of the largest sphere inside. */

@@ -33,8 +33,12 @@ class ContactMonitor : protected Pointers {
   static constexpr double much_deeper = 1.5;
   static constexpr double largest_move = 0.1;    ///< over the radius
 
-  /// What to do about an overlap above the limit.
-  static std::string remedy_for(double overlap);
+  /// Overlaps over the radius that no impact should have.
+  static constexpr double deep = 0.5;
+
+  /// What to do about an overlap above the limit and not deep, which was not there from the
+  /// beginning. `power`: see ContactSides::stiffness_power().
+  static std::string remedy_for(double overlap, double power);
 
   explicit ContactMonitor(LAMMPS *lmp) : Pointers(lmp) {}
 

@@ -2,6 +2,8 @@
 
 #include "system/contact_range.h"
 
+#include "base/told_numbers.h"
+
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
@@ -60,12 +62,12 @@ void ContactRange::require_sizes(const std::string &style) const
   for (int d = 0; d < 3; d++) {
     const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
     if (!matters || domain->prd[d] >= 2.0 * free) continue;
-    const std::string problem =
-        fmt::format("the box is periodic in {} with a period of {:.4g}, and the largest particle "
-                    "has a diameter "
-                    "of {:.4g}: it touches its own image: make the box at least {:.4g} wide, or "
-                    "use 'boundary f'",
-                    std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, 4.0 * free);
+    const std::string problem = fmt::format(
+        "the box is periodic in {} with a period of {:.6g}, and the largest particle "
+        "has a diameter "
+        "of {:.6g}: it touches its own image: make the box at least {:.6g} wide, or "
+        "use 'boundary f'",
+        std::string(1, "xyz"[d]), domain->prd[d], 2.0 * free, rounded_up(4.0 * free, 6));
     error->all(FLERR, "Pair style {}: {}", style, problem);
   }
 }
@@ -77,10 +79,10 @@ std::string ContactRange::small_period() const
     const bool matters = domain->periodicity[d] && !(domain->dimension == 2 && d == 2);
     if (matters && domain->prd[d] < needed)
       return fmt::format(
-          "the box is periodic in {} with a period of {:.4g}, below two diameters of the largest "
+          "the box is periodic in {} with a period of {:.6g}, below two diameters of the largest "
           "particle: two particles could touch on both sides, and laws with history cannot tell "
-          "these contacts apart: make the box at least {:.4g} wide, or use 'boundary f'",
-          std::string(1, "xyz"[d]), domain->prd[d], needed);
+          "these contacts apart: make the box at least {:.6g} wide, or use 'boundary f'",
+          std::string(1, "xyz"[d]), domain->prd[d], rounded_up(needed, 6));
   }
   return "";
 }

@@ -34,6 +34,12 @@ double smaller_defined(double a, double b)
   return b > 0.0 ? std::min(a, b) : a;
 }
 
+ContactResponse without_damping(ContactResponse contact)
+{
+  contact.gn = contact.gt = 0.0;
+  return contact;
+}
+
 }    // namespace
 
 void CriticalTimeStep::compute(const PairCoeffs &laws, const ContactPipeline &contacts, int group)
@@ -63,7 +69,7 @@ void CriticalTimeStep::compute_from_sizes(const PairCoeffs &laws, int group)
 
 void CriticalTimeStep::consider_pairs(const PairCoeffs &laws, double speed)
 {
-  law_period = period_of_shapes = rayleigh = hertz = stable = 0.0;
+  law_period = period_of_shapes = rayleigh = hertz = stable = stable_undamped = 0.0;
   order = GranularSystem::of(lmp)->integrators().order();
   for (int i = 1; i <= laws.num_types(); i++)
     for (int j = i; j <= laws.num_types(); j++) consider_pair(laws, i, j, speed);
@@ -195,13 +201,19 @@ void CriticalTimeStep::consider_stability(const ContactLaw &law, const ContactCo
 {
   const ContactResponse small_motion = response(law, c, overlap, mass_eff.of_law, radius_eff);
   const double moved = std::min(mass_eff.of_law, mass_eff.own);
-  stable = smaller_defined(stable, largest_stable_time_step(small_motion, moved, contacts, order));
+  const auto largest = [&](const ContactResponse &contact_response) {
+    return largest_stable_time_step(contact_response, moved, contacts, order);
+  };
+  stable = smaller_defined(stable, largest(small_motion));
+  stable_undamped = smaller_defined(stable_undamped, largest(without_damping(small_motion)));
 }
 
 void CriticalTimeStep::consider_faces(const ContactResponse &contact_response,
                                       const std::vector<HeldBody> &bodies)
 {
   stable = smaller_defined(stable, largest_stable_time_step(contact_response, bodies));
+  stable_undamped = smaller_defined(
+      stable_undamped, largest_stable_time_step(without_damping(contact_response), bodies));
 }
 
 /* Of particles that a body can touch. */

@@ -47,6 +47,7 @@ class CriticalTimeStep : protected Pointers {
   explicit CriticalTimeStep(LAMMPS *lmp) : Pointers(lmp), undamped(lmp), elastic(lmp) {}
 
   double contact = 0.0, rayleigh = 0.0, hertz = 0.0, stable = 0.0;
+  double stable_undamped = 0.0;    ///< `stable` of the same contacts without damping
   /// Of the laws that compute() has met.
   UndampedFriction undamped;
   ElasticImpacts elastic;

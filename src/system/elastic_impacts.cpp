@@ -4,6 +4,7 @@
 
 #include "system/granular_system.h"
 
+#include "base/told_numbers.h"
 #include "laws/contact_energy.h"
 
 #include "error.h"
@@ -47,7 +48,7 @@ void ElasticImpacts::consider(const std::string &who, const ContactLaw &law,
 
 void ElasticImpacts::warn(double fraction) const
 {
-  if (loses_energy || !(advised > 0.0) || fraction <= advised) return;
+  if (loses_energy || !(advised > 0.0) || fraction <= visibly * advised) return;
   error->warning(FLERR,
                  "Pair style {}: no contact has damping or friction: at this time step, "
                  "{:.3g} of the critical one, impacts of {} gain or lose some energy by chance, "

@@ -6,6 +6,7 @@
 
 #include "system/granular_system.h"
 #include "system/particle_count.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -183,16 +184,19 @@ void FixContactStore::exchange_histories(Talus::StateExchange &x)
   current = false;
 }
 
-/* What a restart file holds of this fix: for all particles the state below, for each of them the
-   number of doubles, key, name, tag, the list of contacts, and with an integrator of second
-   order the changes of velocities. The version is written as a
-   negative number: a file without one begins with the size of cells, which is positive. */
+/* What a restart file holds of this fix: for all particles the state below, for each of them key, name, tag, the list
+   of contacts, and with an integrator of second order the changes of velocities. */
 
 namespace {
 
-constexpr double restart_version = 4.0;
-enum State { VERSION, INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
-constexpr int restart_header = 4;
+constexpr int restart_format = 5;
+enum State { INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
+constexpr int restart_header = Talus::size_particle_head + 3;
+
+std::string command_name(LAMMPS *lmp)
+{
+  return std::string("Pair style ") + Talus::GranularSystem::of(lmp)->style_name();
+}
 
 }    // namespace
 
@@ -202,45 +206,35 @@ void FixContactStore::write_restart(FILE *fp)
   const bigint particles = Talus::count_particles(lmp);
   if (comm->me) return;
   double state[STATE_SIZE];
-  state[VERSION] = -restart_version;
   state[INVERSE_CELL] = inverse_cell;
   state[PARTICLES] = static_cast<double>(particles);
   state[ORDER] = order;
-  const int size = sizeof state;
-  fwrite(&size, sizeof size, 1, fp);
-  fwrite(state, size, 1, fp);
+  Talus::write_restart_data_of_fix(fp, restart_format, state, sizeof state);
 }
 
 void FixContactStore::restart(char *buf)
 {
-  double state[STATE_SIZE] = {};
-  std::memcpy(state, buf, sizeof state[VERSION]);
-  if (state[VERSION] != -restart_version)
-    error->all(FLERR,
-               "Pair style {}: the restart file holds contact history in the format {}, and this "
-               "version of Talus reads format {}: continue with the version that wrote it",
-               Talus::GranularSystem::of(lmp)->style_name(),
-               state[VERSION] < 0.0 ? -state[VERSION] : 1.0, restart_version);
-  std::memcpy(state, buf, sizeof state);
+  double state[STATE_SIZE];
+  const std::string data = Talus::restart_data_of_fix(lmp, command_name(lmp), restart_format, buf);
+  std::memcpy(state, data.data(), sizeof state);
   order = static_cast<int>(state[ORDER]);
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
-    error->all(
-        FLERR,
-        "Pair style {}: particles were added or deleted between read_restart and the first run, "
-        "so that contact history cannot be assigned: put 'run 0' in between",
-        Talus::GranularSystem::of(lmp)->style_name());
+    error->all(FLERR,
+               "{}: particles were added or deleted between read_restart and the first run, "
+               "so that contact history cannot be assigned: put 'run 0' in between",
+               command_name(lmp));
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
 {
   int size = restart_header + store.pack_list(i, buf + restart_header);
   if (with_changes) size += write_change(changes[i], buf + size);
-  buf[0] = size;
-  buf[1] = as_double(keys[i]);
-  buf[2] = as_double(store.origin(i).name);
-  buf[3] = as_double(static_cast<std::int64_t>(atom->tag[i]));
-  return size;
+  double *const head = buf + Talus::size_particle_head;
+  head[0] = as_double(keys[i]);
+  head[1] = as_double(store.origin(i).name);
+  head[2] = as_double(static_cast<std::int64_t>(atom->tag[i]));
+  return Talus::complete_particle_data(buf, size);
 }
 
 /* LAMMPS does not move what it has read for us when particles are deleted before this fix exists:
@@ -248,21 +242,20 @@ int FixContactStore::pack_restart(int i, double *buf)
 
 void FixContactStore::unpack_restart(int i, int nth)
 {
-  const double *extra = atom->extra[i];
-  int m = 0;
-  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  keys[i] = from_double<std::uint64_t>(extra[m + 1]);
-  if (from_double<std::int64_t>(extra[m + 3]) != atom->tag[i])
-    error->one(
-        FLERR,
-        "Pair style {}: particles were deleted or renumbered between read_restart and the first "
-        "run, so that contact history cannot be assigned: put 'run 0' in between",
-        Talus::GranularSystem::of(lmp)->style_name());
-  store.set_name(i, from_double<std::int64_t>(extra[m + 2]));
-  const int read = restart_header + store.unpack_list(i, extra + m + restart_header);
-  if (static_cast<int>(extra[m]) == read) return;
+  const std::string command = command_name(lmp);
+  const double *const head = Talus::particle_data(lmp, command, i, nth),
+                      *const data = head - Talus::size_particle_head;
+  keys[i] = from_double<std::uint64_t>(head[0]);
+  if (from_double<std::int64_t>(head[2]) != atom->tag[i])
+    error->one(FLERR,
+               "{}: particles were deleted or renumbered between read_restart and the first "
+               "run, so that contact history cannot be assigned: put 'run 0' in between",
+               command);
+  store.set_name(i, from_double<std::int64_t>(head[1]));
+  const int read = restart_header + store.unpack_list(i, data + restart_header);
+  if (static_cast<int>(data[0]) == read) return;
   keep_changes(true);    // init() may drop them
-  changes[i] = read_change(extra + m + read);
+  changes[i] = read_change(data + read);
 }
 
 /* Exactly, not an upper limit: LAMMPS writes as much, and reads it as further particles. */

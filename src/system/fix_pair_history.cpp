@@ -4,6 +4,7 @@
 
 #include "system/fix_contact_store.h"
 #include "system/granular_system.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "error.h"
@@ -55,14 +56,17 @@ int FixPairHistory::pack_restart(int i, double *buf)
   }
   buf[0] = static_cast<double>(to - buf);
   buf[1] = static_cast<double>(contacts.size());
-  return static_cast<int>(to - buf);
+  return Talus::append_digest(buf);
 }
 
 void FixPairHistory::unpack_restart(int i, int nth)
 {
   if (system->store()->restart_reset) return;
-  double *from = atom->extra[i];
-  for (int n = 0; n < nth; n++) from += static_cast<int>(*from);
+  const double *from = Talus::stock_particle_data(
+      lmp, std::string("Pair style ") + system->style_name(), i, nth, [this](const double *data) {
+        const bool is_count = data[1] >= 0.0 && data[1] <= atom->nextra_store;
+        return is_count ? header + stock_entry() * static_cast<bigint>(data[1]) : -1;
+      });
   const int contacts = static_cast<int>(from[1]);
   from += header;
   Talus::HistoryStore &store = system->store()->histories();
@@ -93,13 +97,14 @@ void FixPairHistory::take_even_values_of(int partner, tagint tag, Talus::History
 int FixPairHistory::size_restart(int i)
 {
   return header +
-         stock_entry() * static_cast<int>(system->store()->histories().contacts_of(i).size());
+         stock_entry() * static_cast<int>(system->store()->histories().contacts_of(i).size()) +
+         Talus::size_of_digest;
 }
 
 int FixPairHistory::maxsize_restart()
 {
   const int contacts = system->store()->histories().largest_count(atom->nlocal);
-  int mine = header + stock_entry() * contacts, most = 0;
+  int mine = header + stock_entry() * contacts + Talus::size_of_digest, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;
 }

@@ -52,6 +52,9 @@
 // comm_modify mode multi/old and its cutoffs by type were removed in 2026.
 #define TALUS_HOST_HAS_MULTI_OLD (TALUS_LAMMPS_VERSION < 20260000)
 
+// Extents of regions that move follow them; before, they are those of the region where it is defined.
+#define TALUS_HOST_MOVES_EXTENTS (TALUS_LAMMPS_VERSION >= 20260000)
+
 // Kind of object that Fix::image() hands to dump image: triangles. The older host has the list in
 // dump_image.cpp alone.
 #if TALUS_LAMMPS_VERSION >= 20260000

@@ -63,9 +63,11 @@ void LargeBody::set_frame(const BodyFrame *body_frame, bool body_moves)
 void LargeBody::keep_history()
 {
   const bool second_order = system.integrators().order() == 2;
-  with_history = std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
-    return s.law.has_history() || (second_order && second_order_law(s.law).has_history());
-  });
+  // what pair_coeff says may change
+  with_history =
+      type_of_laws > 0 || std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
+        return s.law.has_history() || (second_order && second_order_law(s.law).has_history());
+      });
   if (with_history)
     contacts.history.keep(body_shape->most_contacts() > 1, !body_shape->has_one_normal());
 }
@@ -118,11 +120,18 @@ void LargeBody::list_particles()
   contacts.find_candidates(*body_shape, *frame, particles, mask, group_bits(), neighbor->skin,
                            comm->nthreads);
   if (order_of_history != 0 && order_of_history != system.integrators().order())
-    contacts.change_order(system.integrators().order(), atom->type,
-                          [this](int type) -> const ContactLaw & { return specs[type].law; });
+    change_order_of_histories();
   order_of_history = system.integrators().order();
   keep_records(false);
   seen_between = {};
+}
+
+void LargeBody::change_order_of_histories()
+{
+  std::vector<ContactLaw> laws(1);
+  for (int type = 1; type <= atom->ntypes; type++) laws.push_back(law_of(type));
+  contacts.change_order(system.integrators().order(), atom->type,
+                        [&laws](int type) -> const ContactLaw & { return laws[type]; });
 }
 
 /* nullptr: it is none, or its vertices do not move. */
@@ -177,8 +186,8 @@ ParticleState LargeBody::view() const
 
 std::string LargeBody::needs_arrays() const
 {
-  const bool turns = std::any_of(specs.begin() + 1, specs.end(),
-                                 [](const ContactSpec &s) { return s.law.has_friction(); });
+  bool turns = false;
+  for (int type = 1; type <= atom->ntypes; type++) turns = turns || law_of(type).has_friction();
   if (turns && !system.pipeline().keeps_omega())
     return "it has friction and the contacts between particles have none";
   return "";
@@ -268,6 +277,7 @@ bool LargeBody::accounts() const
 
 void LargeBody::for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit)
 {
+  if (region && !region->is_there()) return;
   contacts.for_each_contact(*body_shape, *frame, view(), update->dt, requested, visit);
   if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, requested, visit);
 }

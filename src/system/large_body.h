@@ -22,7 +22,9 @@
 #include "body/contact/impulse_account.h"
 #include "body/shape/large_body_shape.h"
 #include "laws/given_law.h"
+#include "material/contact_spec.h"
 #include "system/effective_masses.h"
+#include "system/region_handle.h"
 #include "vtk/poly_data.h"
 
 #include "pointers.h"
@@ -31,6 +33,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +46,7 @@ namespace Talus {
 
 class DeformingBody;
 class GranularSystem;
+class PairCoeffs;
 class StateExchange;
 class SteeredBody;
 
@@ -63,8 +67,13 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   void set_shape(std::unique_ptr<LargeBodyShape> shape);
   LargeBodyShape &shape() { return *body_shape; }
+  /// That the shape asks; at the start of a run. It may be gone between two runs.
+  void set_region(const RegionHandle &asked) { region = asked; }
   void set_law(int type, const ContactSpec &spec);
-  bool has_law(int type) const { return spec_is_set[type]; }
+  /// In place of all laws: those of pairs with this type of particles, as they are when a run begins.
+  void set_type_of_laws(int type) { type_of_laws = type; }
+  bool has_type_of_laws() const { return type_of_laws > 0; }
+  bool has_law(int type) const { return type_of_laws > 0 || spec_is_set[type]; }
   /// Programs may ask where it is, and steer it.
   void set_steered(SteeredBody &body) { steered = &body; }
   SteeredBody *as_steered() const { return steered; }
@@ -127,9 +136,11 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all
   /// that follow.
-  void watch(const Vector3<double> &point);
+  /// By one of several, by number; the point is that of the last one.
+  void watch(const Vector3<double> &point, int watcher);
   bool is_watched() const { return impulses.has_value(); }
-  void unwatch() { impulses.reset(); }
+  /// Its last watcher ends it.
+  void unwatch(int watcher);
   /// When a step begins and the body has not moved yet.
   void begin_step();
   /// Between two steps, up to the velocities that particles have; to be read, begun anew or saved.
@@ -162,8 +173,10 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// stiffness at this overlap; 0 without stiffness.
   double contact_period(int type, double mass, double radius, double overlap);
   /// Law and coefficients of contacts of particles of this type with the body.
-  ContactLaw law_of(int type) const { return specs[type].law; }
-  ContactCoefficients coefficients_of(int type);
+  ContactLaw law_of(int type) const;
+  /// See ContactSides.
+  double stiffness_power(int type) const { return sides_of(type).stiffness_power(); }
+  ContactCoefficients coefficients_of(int type) const { return sides_of(type).coefficients(); }
 
  private:
   ParticleState view() const;
@@ -175,7 +188,12 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void find_frozen();
   void clear_frozen();
   void set_laws();
+  const PairCoeffs &pairs_with(int type) const;
+  ContactSides sides_of(int type) const;
+  std::string note_on(int type) const;
+  void announce_laws();
   void keep_records(bool old_ones);
+  void change_order_of_histories();
   void collect_digits();
   bool sums_exactly() const { return moves || is_watched(); }
   void see_load();
@@ -216,6 +234,11 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   static constexpr int size_digits = 6 * ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;
+
+  std::optional<RegionHandle> region;
+  std::set<int> watchers;    ///< while there are impulses
+  int type_of_laws = 0;     ///< whose pairs have the laws; 0: `specs` are the laws
+  std::string announced;    ///< last description of the laws in the log
 };
 
 }    // namespace Talus

@@ -5,6 +5,7 @@
 #include "system/system_shapes.h"
 
 #include "atom.h"
+#include "error.h"
 #include "fix.h"
 #include "modify.h"
 
@@ -20,6 +21,12 @@ void LargestRadii::find(int frozen_groups, const Talus::SystemShapes *shapes)
   for (int type = 1; type < n && shapes; type++)
     mine[type] = std::max(mine[type], shapes->radius_of(type));
   for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->type[i] < 1 || atom->type[i] >= n)
+      error->one(FLERR,
+                 "Particle {} is of type {}, and there are {} types: the restart file is damaged, "
+                 "use another copy or "
+                 "an earlier file",
+                 atom->tag[i], atom->type[i], n - 1);
     double &r = (atom->mask[i] & frozen_groups ? mine_frozen : mine)[atom->type[i]];
     r = std::max(r, atom->radius[i]);
   }

@@ -28,6 +28,7 @@
 #include "fix_wall.h"
 #include "fix_wall_reflect.h"
 #include "force.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
 #include "region.h"
@@ -75,6 +76,8 @@ TALUS_PRIVATE_MEMBER(LocalSendList, int *CommBrick::*, &CommBrick::localsendlist
 TALUS_PRIVATE_MEMBER(InstanceOfFix, int Fix::*, &Fix::instance_me)
 TALUS_PRIVATE_MEMBER(InstanceOfCompute, int Compute::*, &Compute::instance_me)
 TALUS_PRIVATE_MEMBER(InstanceOfPair, int Pair::*, &Pair::instance_me)
+TALUS_PRIVATE_MEMBER(DataInFile, char **Modify::*, &Modify::id_restart_peratom)
+TALUS_PRIVATE_MEMBER(DataTaken, int *Modify::*, &Modify::used_restart_peratom)
 TALUS_PRIVATE_MEMBER(Bins, NBin **Neighbor::*, &Neighbor::neigh_bin)
 TALUS_PRIVATE_MEMBER(HybridCount, int PairHybrid::*, &PairHybrid::nstyles)
 TALUS_PRIVATE_MEMBER(HybridStyles, Pair **PairHybrid::*, &PairHybrid::styles)
@@ -239,6 +242,15 @@ std::array<const char *, 4> variables_of(const Region &region)
 {
   return {region.*pointer_to(MoveX{}), region.*pointer_to(MoveY{}), region.*pointer_to(MoveZ{}),
           region.*pointer_to(Angle{})};
+}
+
+std::string untaken_restart_data(const Modify &modify, const std::string &prefix)
+{
+  char *const *const ids = modify.*pointer_to(DataInFile{});
+  const int *const taken = modify.*pointer_to(DataTaken{});
+  for (int n = 0; n < modify.nfix_restart_peratom; n++)
+    if (!taken[n] && std::strncmp(ids[n], prefix.c_str(), prefix.size()) == 0) return ids[n];
+  return "";
 }
 
 int number_of_instance(const Fix &fix)

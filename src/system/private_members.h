@@ -19,6 +19,7 @@ class Compute;
 class Fix;
 class FixGravity;
 class Force;
+class Modify;
 class NBin;
 class Neighbor;
 class Pair;
@@ -54,6 +55,10 @@ void forget_local_send_list(LAMMPS_NS::CommBrick &comm);
 int number_of_instance(const LAMMPS_NS::Fix &fix);
 int number_of_instance(const LAMMPS_NS::Compute &compute);
 int number_of_instance(const LAMMPS_NS::Pair &pair);
+
+/// The ID that data of particles have in the restart file which was read, of those that begin with
+/// `prefix` and that no fix has taken yet: the first; "" if there are none.
+std::string untaken_restart_data(const LAMMPS_NS::Modify &modify, const std::string &prefix);
 
 /// Of a fix that averages: the next step in which it reads something; -1 of other fixes.
 LAMMPS_NS::bigint next_reading_of(const LAMMPS_NS::Fix &fix);

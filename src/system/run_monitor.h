@@ -30,7 +30,7 @@ class RunMonitor : protected Pointers {
   /// A value that is not a number counts as zero: it is another trouble.
   struct Finding {
     double value = 0.0;
-    std::array<double, 2> details{};
+    std::array<double, 4> details{};
   };
 
   struct Check {

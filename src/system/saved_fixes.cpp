@@ -2,6 +2,7 @@
 
 #include "system/saved_fixes.h"
 
+#include "exchange/large_messages.h"
 #include "system/fix_contact_store.h"
 #include "system/fix_list.h"
 #include "system/granular_system.h"
@@ -14,6 +15,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -33,7 +35,7 @@ bool SavedFixes::is_own(const Fix *fix) const
 bool SavedFixes::follows_particles(const Fix *fix) const
 {
   for (int n = 0; n < atom->nextra_grow; n++)
-    if (modify->fix[atom->extra_grow[n]] == fix) return true;
+    if (modify->get_fix_by_index(atom->extra_grow[n]) == fix) return true;
   return false;
 }
 
@@ -42,8 +44,9 @@ std::string SavedFixes::reason_against() const
   for (const Fix *fix : fix_list(*modify)) {
     const std::string name = std::string("fix ") + fix->id + " (" + fix->style + ") ";
     if (fix->rigid_flag && !SystemFix::of(fix))
-      return name + "of LAMMPS keeps bodies in members that cannot be saved: use fix rigid/small with "
-                    "the suffix talus, or fix rigid/small/symplectic";
+      return name +
+             "of LAMMPS keeps bodies in members that cannot be saved: use fix rigid/small with "
+             "the suffix talus, or fix rigid/small/symplectic";
     if (std::strcmp(fix->style, "BOND_HISTORY") == 0)
       return name + "keeps histories of bonds, which are not saved: use a scene without bonds";
   }
@@ -73,12 +76,12 @@ std::vector<char> SavedFixes::written_by(Fix *fix) const
   FILE *const file = open_memstream(&text, &size);
   fix->write_restart(file);
   std::fclose(file);
-  int length = static_cast<int>(size);
-  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  std::uint64_t length = size;
+  MPI_Bcast(&length, 1, MPI_UINT64_T, 0, world);
   std::vector<char> all(length);
   if (comm->me == 0) std::copy_n(text, length, all.begin());
   std::free(text);
-  MPI_Bcast(all.data(), length, MPI_CHAR, 0, world);
+  broadcast(all.data(), length, MPI_CHAR, 0, world);
   return all;
 }
 

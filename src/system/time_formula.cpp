@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <cstring>
 #include <set>
 
@@ -37,12 +36,21 @@ bool is_known(const std::string &word)
   return holds(known, word);
 }
 
-/// The end of a number that begins at `text`, its exponent included.
-const char *end_of_number(const char *text)
+bool is_digit(char c)
 {
-  char *end;
-  std::strtod(text, &end);
-  return std::max<const char *>(end, text + 1);
+  return std::isdigit(static_cast<unsigned char>(c));
+}
+
+/// The end of a number that begins at `c`, its exponent included.
+const char *end_of_number(const char *c)
+{
+  while (is_digit(*c) || *c == '.') c++;
+  if (*c != 'e' && *c != 'E') return c;
+  const char *exponent = c + 1;
+  if (*exponent == '+' || *exponent == '-') exponent++;
+  if (!is_digit(*exponent)) return c;
+  while (is_digit(*exponent)) exponent++;
+  return exponent;
 }
 
 bool is_in_word(char c)
@@ -73,7 +81,7 @@ bool formula_reads_only_time(const std::string &formula, std::vector<std::string
 {
   const char *c = formula.c_str();
   while (*c) {
-    if (std::isdigit(static_cast<unsigned char>(*c)) || *c == '.') {
+    if (is_digit(*c) || *c == '.') {
       c = end_of_number(c);
     } else if (is_in_word(*c)) {
       const char *begin = c;
@@ -103,7 +111,7 @@ bool is_composite(const Region &region)
   return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
 }
 
-static std::string variable_of_more_than_time(LAMMPS *lmp)
+std::map<std::string, int> equal_style_variables(LAMMPS *lmp)
 {
   Variable &all = *lmp->input->variable;
 #if TALUS_HOST_TELLS_FORMULAS
@@ -113,8 +121,16 @@ static std::string variable_of_more_than_time(LAMMPS *lmp)
   const int count = all.nvar;
   const auto name = [&all](int n) { return all.names[n]; };
 #endif
+  std::map<std::string, int> found;
   for (int n = 0; n < count; n++)
-    if (all.equalstyle(n) && !reads_only_time(lmp, name(n))) return name(n);
+    if (all.equalstyle(n)) found[name(n)] = n;
+  return found;
+}
+
+static std::string variable_of_more_than_time(LAMMPS *lmp)
+{
+  for (const auto &[name, index] : equal_style_variables(lmp))
+    if (!reads_only_time(lmp, name)) return name;
   return "";
 }
 

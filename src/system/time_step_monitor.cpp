@@ -4,12 +4,15 @@
 
 #include "system/granular_system.h"
 
+#include "base/told_numbers.h"
 #include "comm.h"
 #include "error.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -79,22 +82,39 @@ bool TimeStepMonitor::judge_smaller_particles(const PairCoeffs &laws)
 void TimeStepMonitor::judge()
 {
   const double limit = critical.smallest();
-  const bool too_large = limit > 0.0 && update->dt > advised * limit;
-  const bool unstable = critical.stable > 0.0 && update->dt > critical.stable;
+  const bool too_large = limit > 0.0 && update->dt > visibly * advised * limit;
+  const bool unstable = critical.stable > 0.0 && update->dt > visibly * critical.stable;
   said = too_large || unstable;
-  if (comm->me == 0 && unstable)
-    error->warning(
-        FLERR,
-        "Pair style {}: the time step is {:.3g} of the largest with which particles among twelve "
-        "others, shapes by their faces, are stable with the damping of their contacts ({:.4g}): "
-        "use a smaller one, less damping{}",
-        GranularSystem::of(lmp)->style_name(), update->dt / critical.stable, critical.stable,
-        GranularSystem::of(lmp)->integrators().order() > 1 ? " (gt above all), or order 1"
-                                                           : " (gt above all)");
-  if (comm->me == 0 && too_large)
-    error->warning(FLERR,
-                   "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; "
-                   "contact {:.4g}, Rayleigh {:.4g}, Hertz {:.4g}): at most {} of it is advised",
-                   GranularSystem::of(lmp)->style_name(), update->dt / limit, limit,
-                   critical.contact, critical.rayleigh, critical.hertz, advised);
+  if (comm->me == 0 && unstable) warn_unstable();
+  if (comm->me == 0 && too_large) warn_too_large(limit);
+}
+
+/* Less damping is no cure where springs alone make it unstable. */
+
+void TimeStepMonitor::warn_unstable() const
+{
+  const GranularSystem &system = *GranularSystem::of(lmp);
+  std::string cure = "use a smaller one";
+  if (!(critical.stable_undamped > 0.0) || update->dt <= critical.stable_undamped)
+    cure += std::string(", less damping (gt above all)") +
+            (system.integrators().order() > 1 ? ", or order 1" : "");
+  error->warning(
+      FLERR,
+      "Pair style {}: the time step is {:.3g} of the largest with which particles among twelve "
+      "others, shapes by their faces, are stable with the damping of their contacts ({:.4g}): {}",
+      system.style_name(), update->dt / critical.stable, critical.stable, cure);
+}
+
+void TimeStepMonitor::warn_too_large(double limit) const
+{
+  std::string rules;
+  for (const auto &[name, value] : {std::pair("contact", critical.contact),
+                                    {"Rayleigh", critical.rayleigh},
+                                    {"Hertz", critical.hertz}})
+    if (value > 0.0) rules += fmt::format("{}{} {:.4g}", rules.empty() ? "" : ", ", name, value);
+  error->warning(
+      FLERR,
+      "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; {}): at most {} of "
+      "it is advised",
+      GranularSystem::of(lmp)->style_name(), update->dt / limit, limit, rules, advised);
 }

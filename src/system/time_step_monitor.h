@@ -45,6 +45,8 @@ class TimeStepMonitor : protected Pointers {
   bool judge_smaller_particles(const Talus::PairCoeffs &laws);
   void store_sizes(const Talus::PairCoeffs &laws);
   void judge();
+  void warn_unstable() const;
+  void warn_too_large(double limit) const;
 
   CriticalTimeStep critical;
   double limit_at_start = 0.0;        ///< from the sizes of particles, of the present run (time)

@@ -4,12 +4,14 @@
 
 #include "system/granular_system.h"
 
+#include "base/told_numbers.h"
 #include "laws/contact_energy.h"
 
 #include "error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 using namespace LAMMPS_NS;
 using namespace Talus;
@@ -49,37 +51,42 @@ void UndampedFriction::consider(const std::string &who, const ContactLaw &law,
   const bool hides = damping >= outweighing(mu) || resistance >= braking_resistance * mu;
   const bool granular = !law.tangential().reads_stiffness;
   if (!law.tangential().is_midpoint && mu > strong_friction && !hides && mu > worst_step.mu)
-    worst_step = {who, mu, mu_roll, granular};
+    worst_step = {who, mu, mu_roll, granular, false, false};
 
   const double held = std::min(mu, resistance);
   const double enough = held >= 1.0 ? moderate_damping : weak_damping;
-  const bool grips = mu > gripping_friction && damping < weak_damping;
-  const bool holds = held > strong_resistance && damping < enough;
+  const bool grips = mu > visibly * gripping_friction && damping < weak_damping;
+  const bool holds = held > visibly * strong_resistance && damping < enough;
   if (law.stiffens() && (grips || holds) && mu > worst_spring.mu)
-    worst_spring = {who, mu, mu_roll, granular};
+    worst_spring = {who, mu, mu_roll, granular, grips, holds};
 }
 
 void UndampedFriction::warn(double fraction) const
 {
-  if (worst_step.mu > 0.0 && fraction > harmless_fraction(worst_step.mu))
+  if (worst_step.mu > 0.0 && fraction > visibly * harmless_fraction(worst_step.mu))
     error->warning(FLERR,
                    "Pair style {}: contacts of {} have a coefficient of friction of "
                    "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
                    "impacts gain energy: add {}damping, or use at most {:.2g} of it",
                    GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction,
                    worst_step.granular ? "" : "the word midpoint, or ",
-                   harmless_fraction(worst_step.mu));
-  if (worst_spring.mu > 0.0)
+                   rounded_down(harmless_fraction(worst_step.mu), 2));
+  if (worst_spring.mu > 0.0) {
+    std::string less;
+    if (worst_spring.grips)
+      less = fmt::format("a coefficient of friction of at most {}", gripping_friction);
+    if (worst_spring.holds)
+      less += fmt::format("{}rolling resistance of at most {}", less.empty() ? "" : " and ",
+                          strong_resistance);
     error->warning(
         FLERR,
         "Pair style {}: contacts of {} have a coefficient of friction of "
         "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
-        "their tangential spring stiffens while it is stretched: add damping, {}or use a "
-        "coefficient of friction of at most {} and rolling resistance of at most {}",
+        "their tangential spring stiffens while it is stretched: add damping, {}or use {}",
         GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
         worst_spring.mu_roll > 0.0
             ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
             : "",
-        worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "",
-        gripping_friction, strong_resistance);
+        worst_spring.granular ? "or use mindlin_rescale or mindlin_rescale/force, " : "", less);
+  }
 }

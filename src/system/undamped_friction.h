@@ -46,6 +46,8 @@ class UndampedFriction : protected Pointers {
     std::string who;
     double mu = 0.0, mu_roll = 0.0;
     bool granular = false;    ///< a law of pair granular, which has other words
+    bool grips = false,
+         holds = false;    ///< it is friction, or rolling resistance, that is too much
   };
   Case worst_step, worst_spring;    ///< with the largest mu; mu = 0: none
 };

@@ -228,6 +228,18 @@ class Gate(PluginCase):
         self.run_lammps(USE, env={"LAMMPS_PLUGIN_PATH": BUILD, "TALUS_SKIP_ABI_CHECK": "1", **env})
         self.assert_refused("20990101", env={"TALUS_SKIP_ABI_CHECK": "0", **env})
 
+    def test_another_processor(self):
+        """By the gate alone, which has no instructions that not all processors have."""
+        folder = os.path.join(BUILD, "elsewhere")
+        for np in 1, 2:
+            for load, path in (f'plugin load "{folder}/talusplugin.so"\n', ""), ("", folder):
+                result = self.run_lammps(load + 'print "REACHED"\n', np=np, expect_error=True, env={"LAMMPS_PLUGIN_PATH": path})
+                text = " ".join((result.log + result.output).split())
+                self.assertRegex(text, "ERROR[^:]*: Talus: this plugin was built for another processor than that of this machine, "
+                                       "which lacks the instructions (avx, )?avx1024f; build it here with scripts/build, or for "
+                                       "all machines with scripts/build --portable")
+                self.assertNotIn("\nREACHED", result.log)
+
     def test_half_of_the_plugin(self):
         folder = self.path("half")
         os.makedirs(folder)
@@ -295,7 +307,7 @@ class Install(PluginCase):
         def definitions(folder):
             with open(os.path.join(folder, "compile_commands.json")) as file:
                 command, = [entry["command"] for entry in json.load(file)
-                            if entry["file"].endswith("talusplugin.cpp")]
+                            if entry["file"].endswith("talusplugin.cpp") and "talusplugin_EXPORTS" in entry["command"]]
             # NDEBUG tells how the build is optimized
             return sorted(set(re.findall(r"-D *([^ ]+)", command)) - {"NDEBUG"})
         self.assertEqual(definitions(build), definitions(BUILD))

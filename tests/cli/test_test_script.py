@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from test_build_errors import ROOT, ScriptCase, write
 
 SECOND = "4Jul2026"
+LEVELS = ["build-g++-10-x86-64", "build-g++-10-x86-64-v2", "build-g++-10-x86-64-v3"]    # of those that the stub can run
 
 
 class Configurations(ScriptCase):
@@ -24,12 +25,13 @@ class Configurations(ScriptCase):
         # build_talus makes the default configuration: packages, host and compilation are not what is tested here
         with open(self.path("tree", "scripts", "lib", "all.sh"), "a") as file:
             file.write('build_talus() { TALUS_BUILD=$(build_directory "$1" "$2" "$3"); }\n'
-                       "prepare_host() { HOST_BINARY=none; }\nall_compilers() { echo g++-10; }\n")
+                       "prepare_host() { HOST_BINARY=none; }\nall_compilers() { echo g++-10; }\n"
+                       "can_run() { [ $1 != x86-64-v4 ]; }\nlevel_of_build() { echo x86-64-v4; }\n")
         note = f"printf '%s ' {{}} \"$@\" >> '{self.path('calls')}'; echo >> '{self.path('calls')}'\n"
         write(self.path("tree", "scripts", "build"), "#!/bin/sh\n" + note.format('"build [$TALUS_TARGETS]"'), executable=True)
         self.command("ctest", note.format("ctest") + '[ "$2" != "$FAILING" ]\n')
-        self.command("cmake", "exit 0\n")
-        self.command("ninja", "exit 0\n")
+        self.command("cmake", f"echo \"$@\" >> '{self.path('configured')}'\n")
+        self.command("ninja", 'echo "$@"\n')
         self.command("clang++", "exit 0\n")
         self.command("g++-10", "echo g++ 10\n")
         self.command("aarch64-linux-gnu-g++", "exit 0\n")
@@ -77,6 +79,40 @@ class Configurations(ScriptCase):
         self.assertIn((f"build-{SECOND}-smallbig", "-L dem"), self.of_ctest(calls))
         self.assertNotIn("left out", result.stdout)
 
+    def configured(self):
+        """[options of CMake] of all calls so far."""
+        with open(self.path("configured")) as file:
+            return file.read().splitlines()
+
+    def test_the_core_is_compiled_for_another_level_of_the_processor(self):
+        for own, other in ("x86-64-v4", "x86-64-v3"), ("x86-64-v3", "x86-64-v4"):
+            with open(self.path("tree", "scripts", "lib", "all.sh"), "a") as file:
+                file.write(f"level_of_build() {{ echo {own}; }}\n")
+            result, _ = self.run_test()
+            self.assertEqual(result.returncode, 0, result.stdout)
+            self.assertIn(f"TALUS_ARCH={other} ", self.configured()[-1])
+            with open(self.path("tree", f"build-{other}", "build.log")) as file:
+                self.assertIn("talus_core talus_exchange", file.read())
+
+    def test_warnings_are_errors_where_we_check_ourselves(self):
+        for arguments, environment, word in ((), {}, "OFF"), ((), {"CI": "true"}, "ON"), (("--all",), {}, "ON"), (("--tsan",), {}, "ON"):
+            self.run_test(*arguments, **environment)
+            calls = self.configured()
+            os.remove(self.path("configured"))
+            self.assertTrue(calls)
+            for call in calls:
+                self.assertIn(f"TALUS_WERROR={word} ", call)
+
+    def test_a_user_is_told_of_warnings_at_the_end(self):
+        warning = "src/base/words.cpp:7:1: warning: this is odd [-Wodd]"
+        self.command("ninja", f"echo '../{warning}'; echo '/usr/include/x.h:1:1: warning: foreign'\n")
+        result, _ = self.run_test()
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertRegex(result.stdout, rf"the compiler warns in 1 places, [^\n]*:\n{re.escape(warning)}\n")
+        self.command("ninja", "exit 0\n")
+        result, _ = self.run_test()
+        self.assertNotIn("warns", result.stdout, "those of earlier builds are not told again")
+
     def test_options_narrow_the_run_to_the_default_host(self):
         _, calls = self.run_test("-L", "unit", CI="true")
         self.assertEqual(self.of_ctest(calls), [("build", "-LE slow -L unit")])
@@ -87,12 +123,13 @@ class Configurations(ScriptCase):
         found = self.of_ctest(calls)
         folders = [folder for folder, _ in found]
         self.assertEqual(folders, [f"build-{SECOND}-smallbig"] * 2 + [f"build-{SECOND}-bigbig", "build-none-smallbig-portable",
-                                   "build-sanitize", "build-tsan", "build-g++-10", "build-aarch64", "build"])
+                                   "build-sanitize", "build-tsan", *LEVELS, "build-aarch64", "build"])
         self.assertEqual(found[0][1], "-L style|dropin -LE slow|hostless|dem", "what needs no host runs once")
         self.assertEqual(found[2][1], "-L smoke|mpi|cli -LE slow|hostless")
         slow = [folder for folder, options in found if "-LE" not in options and "-L" not in options]
-        self.assertEqual(slow, ["build-tsan", "build-g++-10", "build-aarch64", "build"],
+        self.assertEqual(slow, ["build-tsan", *LEVELS, "build-aarch64", "build"],
                          "slow tests run once, with the default host; builds without a host have none")
+        self.assertTrue(any("TALUS_ARCH=x86-64-v4" in call for call in self.configured()), "compiled, since it cannot be run")
 
     def test_a_failure_is_remembered(self):
         for folder, name in ((f"build-{SECOND}-bigbig", f"second host {SECOND}, BIGBIG"),

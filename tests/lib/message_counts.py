@@ -10,6 +10,15 @@ def counting(path):
     return {"LD_PRELOAD": " ".join(filter(None, [os.environ.get("LD_PRELOAD"), library])), "TALUS_COUNTS": path}
 
 
+def gathered(path, np):
+    """Bytes that all ranks have given to MPI_Allgatherv()."""
+    size = 0
+    for rank in range(np):
+        with open(f"{path}.{rank}") as file:
+            size += sum(int(words[1]) for words in map(str.split, file) if words[0] == "gathered")
+    return size
+
+
 def sent(path, np):
     """Messages and bytes that all ranks have sent to others, point to point."""
     messages = size = 0

@@ -7,6 +7,7 @@
 //   collectives N      blocking ones: barrier, broadcast, reductions, gathers, all-to-all
 //   started N          non-blocking ones
 //   beside N           tests for messages in a parallel region of several threads
+//   gathered N         bytes that it has given to MPI_Allgatherv
 //   to RANK messages N bytes N      point to point, per rank of MPI_COMM_WORLD
 // A program that needs no numbering of its own in duplicated communicators is assumed. If
 // $TALUS_THREAD_LEVEL is given, MPI_Query_thread() answers with that number.
@@ -26,7 +27,7 @@ struct Sent {
   long messages = 0, bytes = 0;
 };
 std::map<int, Sent> sent;
-long collectives = 0, started = 0, beside = 0;
+long collectives = 0, started = 0, beside = 0, all_gathered = 0;
 
 void write_counts()
 {
@@ -36,7 +37,8 @@ void write_counts()
   PMPI_Comm_rank(MPI_COMM_WORLD, &me);
   std::FILE *file = std::fopen((std::string(stem) + "." + std::to_string(me)).c_str(), "w");
   if (!file) return;
-  std::fprintf(file, "collectives %ld\nstarted %ld\nbeside %ld\n", collectives, started, beside);
+  std::fprintf(file, "collectives %ld\nstarted %ld\nbeside %ld\ngathered %ld\n", collectives,
+               started, beside, all_gathered);
   for (const auto &[rank, s] : sent)
     std::fprintf(file, "to %d messages %ld bytes %ld\n", rank, s.messages, s.bytes);
   std::fclose(file);
@@ -113,6 +115,16 @@ EXPORTED int MPI_Allgather(const void *in, int in_count, MPI_Datatype in_type, v
 {
   collectives++;
   return PMPI_Allgather(in, in_count, in_type, out, out_count, out_type, comm);
+}
+
+EXPORTED int MPI_Allgatherv(const void *in, int in_count, MPI_Datatype in_type, void *out,
+                            const int *out_counts, const int *places, MPI_Datatype out_type,
+                            MPI_Comm comm)
+{
+  int size = 0;
+  PMPI_Type_size(in_type, &size);
+  all_gathered += static_cast<long>(in_count) * size;
+  return PMPI_Allgatherv(in, in_count, in_type, out, out_counts, places, out_type, comm);
 }
 
 EXPORTED int MPI_Alltoall(const void *in, int in_count, MPI_Datatype in_type, void *out,

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from message_counts import counting, gathered
 from talus_testing import SceneCase, marked_word, read_dump, thermo
 
 SCENE = """
@@ -60,6 +61,31 @@ thermo_style custom step atoms f_in[1] f_in[2]
 thermo 100000
 thermo_modify lost {lost}
 """
+
+
+# a bed with a mouth above; {boundary}: of its upper face
+BED = """
+units lj
+atom_style sphere
+boundary f f f{boundary}
+newton off
+comm_modify vel yes
+processors {grid}
+region box block 0 10 0 10 0 {height}
+create_box 1 box
+pair_style gran/penalty
+pair_coeff * * hertz 2.0e4 50.0
+neighbor 0.3 bin
+fix step all nve/sphere/symplectic gravity 1.0 vector 0 0 -1
+fix floor all large/body plane 0 0 0  0 0 1 contact hertz 2.0e4 50.0
+region mouth block 1 9 1 9 17 19
+{pour}
+region lay block 1 9 1 9 0.5 {top}
+fill_region lay 1 number {number} diameter 1.0 density 1.0 seed 8
+timestep 0.0005
+thermo_style custom step atoms zhi
+"""
+STREAM_IN = "fix in all pour/rate 200 1 mouth 100 diameter 1.0 density 1.0 seed 3 velocity 0 0 -3"
 
 
 class Pour(SceneCase):
@@ -143,6 +169,64 @@ class Pour(SceneCase):
                 "fix floor all wall/gran hooke/history 1e6 NULL 100 NULL 0.5 1 zplane 0 NULL\n")
         first = self.pour(before=more)
         self.assert_same_bits(first, self.pour(before=more, arguments=["-sf", "talus"], np=2), ["radius", "mass"])
+
+    def bed(self, commands, name, boundary="s", grid="* * *", pour=STREAM_IN, top=4, height=20, np=1, **options):
+        script = BED.format(boundary=boundary, grid=grid, pour=pour, top=top, height=height, number=25 * top) + commands
+        self.log = self.run_lammps(script + DUMP.format(name=name), np=np, **options).log
+        return None if options.get("expect_error") else read_dump(self.path(name))[0]
+
+    def test_a_box_that_is_shrink_wrapped_grows(self):
+        fixed = self.bed("run 2000\n", "fixed", boundary="")
+        self.assertGreater(len(fixed.atoms), thermo(self.log)[0]["Atoms"] + 100)
+        for boundary in "s", "m":
+            for np, grid in (1, "1 1 1"), (2, "1 1 2"), (4, "2 2 1"):
+                with self.subTest(boundary=boundary, np=np):
+                    self.assert_same_bits(fixed, self.bed("run 2000\n", "wrapped", boundary, grid, np=np))
+                    self.assertGreater(thermo(self.log)[-1]["Zhi"], 17)
+        self.bed("run 10\n", "refused", grid="1 1 4", height=5, np=4, expect_error=True)
+        self.assertIn("fix pour/rate in: the box grows too fast for this number of ranks along it, to reach the region: use "
+                      "'boundary' with m in the place of s", " ".join(self.log.split()))
+        self.assert_same_bits(fixed, self.bed("run 2000\n", "least", "m", "1 1 4", np=4))
+        fill = "run 1\nfill_region mouth 1 number 60 diameter 1.0 density 1.0 seed 1\nrun 100\n"
+        filled = self.bed(fill, "filled", boundary="", pour="")
+        for np, grid in (1, "1 1 1"), (4, "1 1 4"):
+            self.assert_same_bits(filled, self.bed(fill, "filled", "s", grid, pour="", np=np))
+
+    def test_more_spheres_than_can_be_meant(self):
+        for np in 1, 2:
+            self.bed("run 10\n", "none", pour=STREAM_IN.replace("diameter 1.0", "diameter 1e-3"), np=np, expect_error=True)
+            self.assertRegex(" ".join(self.log.split()), r"fix pour/rate in: 1\.91e\+10 spheres are due at a time, a mass of 10: this is "
+                             "more than this command is made for, look for a wrong unit in the mass rate, the diameter or "
+                             "the density, or take a smaller N")
+        # what is due and has no room is no reason
+        self.bed("run 2500\n", "full", pour=STREAM_IN.replace("mouth 100", "mouth 1e12"), top=2)
+        self.assertIn("finds no place", self.log)
+
+    def test_a_mouth_that_moves(self):
+        """Spheres are where it is, and what ranks send each other for that follows the mouth, not the bed."""
+        mouth = "region mouth block 1 3 4 6 17 19 move v_way NULL NULL{}\n" + STREAM_IN
+        motion = "variable way equal 10*time\nvariable angle equal 3*time\n"
+        turning = " rotate v_angle 3 5 18 0 0 1"
+        for more, shift in ("", 0.0), (turning, None):
+            with self.subTest(more):
+                frame = self.bed("run 600\n", "moved", "", pour="region mouth delete\n" + motion + mouth.format(more))
+                made = [row for tag, row in frame.atoms.items() if tag > thermo(self.log)[0]["Atoms"]]
+                self.assertGreater(len(made), 2)
+                if shift is None:
+                    continue
+                x, y, z = (frame.columns.index(name) for name in "xyz")
+                for row in made:
+                    # at steps 1, 201 and 401; it has fallen since
+                    self.assertTrue(4 <= row[y] <= 6 and any(
+                        1.5 <= row[x] - 10 * 0.0005 * (step - 1) <= 2.5 for step in (1, 201, 401)), row)
+        size = []
+        for top in 2, 9:
+            counts = self.path(f"counts{top}")
+            self.bed("run 600\n", "counted", "", "2 1 1", "region mouth delete\n" + motion + mouth.format(""), top, np=2,
+                     env=counting(counts))
+            size.append(gathered(counts, 2))
+        self.assertEqual(size[0], size[1])
+        self.assertGreater(size[0], 0)
 
     def test_errors(self):
         cases = [("50 2", "fix pour/rate: missing region-ID", None), (WORDS.replace("50 2", "0 2"), r"expected N \(a whole number >= 1\)", "0"),

@@ -207,6 +207,60 @@ variable weight equal 5*mass(all)""", 30000, dt=1e-4, law=law, every=3000,
             self.assertLess(max(energy), energy[0] + 3.0 * rows[0]["v_weight"])
 
 
+class Floors(SuperellipsoidCase):
+    """Floors of two triangles are planes, whatever the overlap."""
+
+    FLOORS = {"plane": "plane 0 0 0 0 0 1", "mesh": "mesh floor.stl", "rectangle": "rectangle 0 0 0 0 0 1 1 0 0 6 6"}
+
+    def write_floor(self):
+        corners = (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)
+        body_meshes.write_stl(self.path("floor.stl"), [[corners[k] for k in tri] for tri in ((0, 1, 2), (0, 2, 3))])
+
+    def test_at_rest_on_an_incline(self):
+        """15 degrees, friction .5: it rocks and stays, with the contact in all steps as on the plane."""
+        self.write_floor()
+        found = {}
+        for name, floor in self.FLOORS.items():
+            law = "hooke 2e4 200 tangential multistep NULL NULL 0.5"
+            rows = self.simulate([Sphere((0.7, -0.3, 0.1998))], f"""
+fix s all shape/gran type 1 ellipsoid .5 .35 .2 density 1
+fix g all gravity/talus 1 vector {math.sin(math.radians(15))!r} 0 {-math.cos(math.radians(15))!r}
+fix floor all large/body {floor} contact {law}
+variable lost equal f_floor[20]<0.5
+fix lost all ave/time 1 5000 5000 v_lost""", 5000, dt=4e-4, law=law, columns="f_lost f_floor[1] f_floor[3]")
+            found[name] = [self.of(key) for key in STATE] + [rows[-1]["f_lost"]]
+        for name, state in found.items():
+            print(name, "moved by", state[0] - 0.7, "without a contact", state[-1])
+            for one, other in zip(state, found["plane"]):
+                self.assertAlmostEqual(one, other, delta=1e-10, msg=name)
+        self.assertLess(found["plane"][-1], 0.02)
+        self.assertLess(found["plane"][0] - 0.7, 0.01)
+
+    def test_one_force_at_any_depth(self):
+        """A needle and a thin disc at 45 degrees, from 1e-11 deep to half way through, on floors of triangles, of a box and caps."""
+        self.write_floor()
+        floors = self.FLOORS | {"box": "box 0 0 -2 9 9 4 outside", "cylinder": "cylinder 0 0 -2 0 0 1 4 4 outside",
+                                "cone": "cone 0 0 -2 0 0 1 5 4 4 outside"}
+        for spec, axis, height in (("ellipsoid .5 .025 .025", (0, 1, 0), math.sqrt((0.25 + 0.025**2) / 2)),
+                                   ("ellipsoid .5 .5 .05", (1, 0, 0), math.sqrt((0.25 + 0.05**2) / 2))):
+            for depth in 1e-11, 1e-5, 0.03, 0.2, 0.33:
+                for name, floor in floors.items():
+                    row, = self.simulate([Sphere((0.31, 0.17, height - depth))], f"""
+fix s all shape/gran type 1 {spec} density 1 orient {quat(axis, 45)}
+fix floor all large/body {floor} contact hooke 2e4 0""", 0, law="hooke 2e4 0", columns="f_floor[1] f_floor[2] f_floor[3]")
+                    self.assertAlmostEqual(row["f_floor[3]"] / (-2e4 * depth), 1, delta=max(1e-10, 1e-15 / depth), msg=f"{spec} {depth} {name}")
+                    self.assertAlmostEqual(row["f_floor[1]"], 0, delta=1e-9)
+                    self.assertAlmostEqual(row["f_floor[2]"], 0, delta=1e-9)
+
+    def test_a_lens_in_a_drum_of_nearly_its_curvature(self):
+        """Its radius where it is flat is 1.25: one place in a drum that is less curved."""
+        for radius in 1.251, 1.26, 1.3:
+            row, = self.simulate([Sphere((radius - 0.199, 0, 0))], f"""
+fix s all shape/gran type 1 ellipsoid .5 .5 .2 density 1 orient {quat((0, 1, 0), 90)}
+fix drum all large/body cylinder 0 0 0 0 0 1 {radius} 4 inside contact hooke 2e4 0""", 0, law="hooke 2e4 0", columns="f_drum[1] f_drum[20]")
+            self.assertAlmostEqual(row["f_drum[1]"], 20, delta=1e-9)
+
+
 class Bits(SuperellipsoidCase):
 
     LAW = "hertz 2e4 60 tangential multistep NULL NULL 0.5"

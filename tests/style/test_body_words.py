@@ -234,6 +234,27 @@ run 10
                 moved = math.dist(*places)
                 self.assertEqual(moved > 2.0, bool(more), f"moved by {moved} pixels")
 
+    def test_surfaces_without_gaps(self):
+        """A plate of many triangles: no pixel of the background is within it, whatever their size and place."""
+        size = 200
+        for n, (parts, shift) in enumerate(((7, 0.0), (13, 0.013), (31, 0.4))):
+            body_meshes.write_stl(self.path("plate.stl"), body_meshes.grid(
+                lambda i, j: (-2.0 + 4.0 * i / parts + shift, 0.0, -2.0 + 4.0 * j / parts + 0.7 * shift), parts, parts))
+            self.run_lammps(SCENE + f"""
+fix body all large/body mesh plate.stl contact hooke 1 0
+dump p all image 10 plate{n}.*.ppm type type size {size} {size} view 90 -90 zoom 1.1 box no 0 atom no fix body type 1 0
+dump_modify p backcolor black acolor 1 red
+run 0
+""", np=1 + n % 2)
+            with open(self.path(f"plate{n}.0.ppm"), "rb") as file:
+                data = file.read()[-3 * size * size:]
+            rows = [[data[3 * (size * y + x)] > 40 for x in range(size)] for y in range(size)]
+            full = [row for row in rows if any(row)]
+            self.assertGreater(len(full), 40)
+            for row in full:
+                first, last = row.index(True), size - 1 - row[::-1].index(True)
+                self.assertTrue(all(row[first:last + 1]), f"{parts} parts: {row[first:last + 1].count(False)} gaps")
+
     def compile_shape(self, source, library):
         subprocess.run([os.environ.get("TALUS_CXX", "g++"), "-std=c++17", "-O2", "-march=native", "-ffp-contract=off",
                         "-Wno-psabi", "-shared", "-fPIC", "-I", os.path.join(SOURCE, "src"), source, "-o",

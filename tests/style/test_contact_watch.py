@@ -36,6 +36,11 @@ run {steps}
 """
 
 
+def since_start(cure):
+    """The cure of what happens during the run."""
+    return "impact" in cure
+
+
 class Warned(SceneCase):
 
     def found(self, spheres, pattern, dt=1e-4, steps=10, boundary="f f f", more="", **options):
@@ -76,7 +81,7 @@ class Warned(SceneCase):
         self.assertEqual(self.found(self.pair(0.09), OVERLAP), [])
 
     def test_again_only_if_it_is_much_worse(self):
-        """Overlaps of .3, .4 and .6; what would help is said in numbers."""
+        """Overlaps of .3, .4 and .6, which are there from the beginning."""
         spheres = [Sphere((-0.425, 0, 0), id=5), Sphere((0.425, 0, 0), id=6)]
         again = "displace_atoms all ramp x {0} {1} x -0.425 0.425\nrun 0"
         more = "\nfix hold all freeze\nrun 0\n" + again.format(0.025, -0.025) + "\n" + again.format(0.05, -0.05) + "\n"
@@ -86,8 +91,8 @@ class Warned(SceneCase):
             self.assertAlmostEqual(float(ratio), expected, delta=0.02)
         write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
         log = self.run_lammps(SCRIPT.format(dt=1e-4, steps=0, boundary="f f f", more="")).log
-        self.assertIn("contact laws are made for overlaps below 0.1: for impacts a stiffness 9 times as high, with 0.33 of "
-                      "the time step, would do; or look for particles that overlap from the beginning", log)
+        self.assertRegex(log, r"particles 5 and 6 overlap by 0.3 of the smaller radius at step 0; they do from the beginning: "
+                              "place them further apart\n")
 
     def test_deep_overlap_during_an_impact(self):
         """Not there at the beginning of the run: found when the lists are rebuilt."""
@@ -116,6 +121,69 @@ class Warned(SceneCase):
             self.assertEqual((name, tag, others), ("floor", "5", []))
             depth = 3.0 * math.sqrt(math.pi / 6 / 1000.0)
             self.assertAlmostEqual(float(ratio), depth / 0.5, delta=0.01)
+
+    LAWS = {"hooke {k} 0.0": 1000.0, "hertz {k} 0.0": 4000.0, "hertz/material {k} 0.9 0.3": 6000.0, "hooke/material {k} 0.9 0.3 4.0": 6000.0}
+    NUMBERS = r"for impacts a stiffness \(kn or E\) (\S+) times as high, with (\S+) of the time step, would do"
+
+    def impact(self, law, dt, speed, more=""):
+        """Of two spheres, or of one with a body: the ratio that is told, and the cure in numbers."""
+        lone = [Sphere((0, 0, 0.501), (0, 0, -speed), id=5), Sphere((0, 4, 4), id=6)]
+        pair = [Sphere((-0.501, 0, 0), (speed / 2, 0, 0), id=5), Sphere((0.501, 0, 0), (-speed / 2, 0, 0), id=6)]
+        write_sphere_data(self.path("data"), ((-5, 5),) * 3, lone if more else pair)
+        script = SCRIPT.replace("hooke 1000.0 0.0", law).format(dt=dt, steps=round(0.35 / dt), boundary="f f f", more=more)
+        log = self.run_lammps(script).log
+        return [float(found[2]) for found in re.findall(BODY_OVERLAP if more else OVERLAP, log)], re.findall(self.NUMBERS, log)
+
+    def test_cure_in_numbers_is_enough(self):
+        """Of every kind of stiffness, for pairs and bodies; and the time step keeps the steps of an impact."""
+        for law, k in self.LAWS.items():
+            for body in False, True:
+                with self.subTest(law, body=body):
+                    def floor(one):
+                        return f"fix floor all large/body plane 0 0 0 0 0 1 contact {one}" if body else ""
+                    first, speed = law.format(k=k), 3.0
+                    (ratio,), ((times, share),) = self.impact(first, 1e-3, speed, floor(first))
+                    times, share = float(times), float(share)
+                    print(f"{first}, {'body' if body else 'pair'}: overlap {ratio}, {times} times the stiffness, {share} of the time step")
+                    self.assertGreater(ratio, 0.12)
+                    self.assertAlmostEqual(0.1 / ratio, share, delta=0.011)
+                    cured = law.format(k=k * times)
+                    self.assertEqual(self.impact(cured, 1e-3 * share, speed, floor(cured))[0], [])
+                    half = law.format(k=k * (1 + 0.5 * (times - 1)))
+                    self.assertEqual(len(self.impact(half, 1e-3 * share, speed, floor(half))[0]), 1, "the number is not too large")
+
+    def test_numbers_at_the_limit(self):
+        """An advice changes something: nothing is said of .1003, and of .102 what is enough."""
+        m = math.pi / 6 / 2
+        for overlap, expected in ((0.1003, []), (0.102, [("1.1", "0.98")])):
+            speed = overlap * 0.5 * math.sqrt(1000.0 / m)
+            self.assertEqual(self.impact("hooke 1000.0 0.0", 1e-4, speed)[1], expected)
+
+    def test_deep_impact(self):
+        found, numbers = self.impact("hooke 1000.0 0.0", 1e-3, 20.0)
+        self.assertGreater(found[0], 0.5)
+        self.assertEqual(numbers, [])
+
+    def test_wrong_side(self):
+        """A center behind the surface: the message asks for the normal, or the side, and for a stiffness only if it went through."""
+        falls = [Sphere((0, 0, 0.7), (0, 0, -3.0), id=4), Sphere((0, 4, 4), id=9)]
+        lies = [Sphere((0, 0, 0.45), id=4), Sphere((0, 4, 4), id=9)]
+        text = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step \d+( or since the last rebuild)?; " \
+            r"its center is behind the surface: if particles belong on that side, use (.*); otherwise (.*)"
+        normal, side = "the normal the other way round, or 'two-sided'", "the other one of 'inside' and 'outside'"
+        shapes = (("plane 0 0 0 0 0 -1", normal), ("box 0 0 4 9 9 8 outside", side), ("sphere 0 0 4 4 outside", side),
+                  ("cylinder 0 0 4 0 0 1 4 8 outside", side))
+        for np, spheres, cure in ((1, falls, "no impact should go so deep"), (2, lies, "it is there from the beginning: move the particle")):
+            for shape, turn in shapes:
+                with self.subTest(shape, np=np):
+                    more = f"fix wall all large/body {shape} contact hooke 1000.0 0.0"
+                    (name, tag, ratio, since, told, otherwise), *_ = self.found(spheres, text, dt=1e-3, steps=200 if since_start(cure) else 10,
+                                                                              more=more, np=np)
+                    self.assertEqual((name, tag, told), ("wall", "4", turn))
+                    self.assertGreater(float(ratio), 1.0)
+                    self.assertIn(cure, otherwise)
+        right = "fix wall all large/body plane 0 0 0 0 0 1 contact hooke 1000.0 0.0"
+        self.assertEqual(self.found(lies, text, dt=1e-3, steps=10, more=right), [])
 
     def test_shapes(self):
         """Of the largest sphere inside of a plate, which is much smaller than the one around it: of two, and of one with a body. And of

@@ -11,9 +11,9 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
+from doc_tables import blocks, commands, page, rows
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
-SOURCE = os.environ["TALUS_SOURCE_DIR"]
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 
@@ -51,33 +51,6 @@ def slot_of(line):
     return " ".join(words[:2]) if words[0] == "fix" else None
 
 
-def page(name):
-    with open(os.path.join(SOURCE, "doc", name)) as file:
-        return file.read()
-
-
-def rows(text, first):
-    """Cells of the rows of all tables whose first column is called so."""
-    found, inside = [], False
-    for line in text.splitlines():
-        cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")] if line.startswith("|") else []
-        if not cells:
-            inside = False
-        elif cells[0] == first:
-            inside = True
-        elif inside and not cells[0].startswith("---"):
-            found.append(cells)
-    return found
-
-
-def commands(cell):
-    return re.findall(r"`([^`]+)`", cell)
-
-
-def blocks(text):
-    return re.findall(r"^```\n(.*?)^```$", text, re.M | re.S)
-
-
 class PageCase(SceneCase):
 
     def setUp(self):
@@ -85,7 +58,7 @@ class PageCase(SceneCase):
         grains = [Sphere(tuple(0.9 * s + 0.75 + draw.uniform(-0.02, 0.02) for s in (i, j, 0.9 * k)),
                          v=tuple(draw.gauss(0, 0.5) for _ in "xyz"), diameter=draw.uniform(0.8, 0.98))
                   for i in range(5) for j in range(5) for k in range(3)]
-        write_sphere_data(self.path("grains"), ((-8, 8), (-8, 8), (-2, 20)), grains)
+        write_sphere_data(self.path("grains"), ((-8, 8), (-8, 8), (-2, 20)), grains, types=2)
         body_meshes.write_stl(self.path("drum.stl"), body_meshes.sphere((2.5, 2.5, 4), 12, 12))
         os.makedirs(self.path("post"))
 
@@ -114,7 +87,7 @@ class PageCase(SceneCase):
 class FromLammps(PageCase):
 
     def test_tables(self):
-        text = page("from_lammps.md") + page("from_lammps_walls.md")
+        text = page("from_lammps.md", "from_lammps_walls.md")
         compared = 0
         for theirs, ours, differs in rows(text, "LAMMPS"):
             theirs, ours = commands(theirs), commands(ours)
@@ -130,13 +103,27 @@ class FromLammps(PageCase):
                 log = self.simulate(ours, self.replaced_by(theirs, ours))
                 self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
                 frame = self.state()
-                if differs.startswith("the same") or (NEW and differs.endswith("releases: the same")):
-                    compared += 1
-                    self.assertLess(max_difference(frame, reference, MOTION), 1e-8)
+                if "a fault" in differs and not NEW:
+                    continue
+                same = differs.startswith("the same") or differs.endswith("releases: the same")
+                compared += same
+                # others begin with a half step, or set springs back where neighbor lists are made anew
+                self.assertLess(max_difference(frame, reference, MOTION if same else ["x", "y", "z"]), 1e-8 if same else 1e-3)
         self.assertGreater(compared, 15)
 
+    def test_outputs(self):
+        """Numbers of contacts are those of compute contact/atom."""
+        (theirs, ours), = [(commands(theirs), commands(ours)) for theirs, ours, _ in
+                           rows(page("from_lammps.md", "from_lammps_walls.md"), "LAMMPS") if "contact/atom" in theirs]
+        counts = []
+        for lines, column in ((theirs, "c_touching"), (ours, "c_touching[2]")):
+            self.simulate([*lines, f"dump count all custom 60 counts.{len(counts)} id {column}"], self.replaced_by(lines))
+            counts.append(read_dump(self.path(f"counts.{len(counts)}"))[-1].column(column))
+        self.assertEqual(*counts)
+        self.assertGreater(sum(counts[0].values()), 10)
+
     def test_one_law_for_many_bodies(self):
-        block, = blocks(page("from_lammps.md") + page("from_lammps_walls.md"))
+        block, = blocks(page("from_lammps.md", "from_lammps_walls.md"))
         self.simulate(block.splitlines(), {"pair", "fix floor"})
 
 
@@ -147,36 +134,35 @@ class FromLiggghts(PageCase):
 create_atoms 1 single 0.0025 0.001 0.014
 set group all diameter 0.003
 set group all density 2500"""
-    PAIR = "pair_style gran/penalty\npair_coeff * * ${law}"
     MOVE = "fix integr all nve/sphere/symplectic gravity 9.81 vector 0 0 -1"
 
-    def script(self, setup, law, lines):
+    def script(self, setup, pair, lines):
         early = [line for line in lines if line.split()[0] in ("region", "fill_region", "variable")]
         late = [line for line in lines if line not in early]
         return "\n".join([
-            "units si", *setup, "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1", "create_box 1 box", law, *early,
+            "units si", *setup, "region box block -0.1 0.1 -0.1 0.1 -0.1 0.1", "create_box 2 box", *early,
             *([] if any(line.startswith("fill_region") for line in early) else [self.GRAINS]),
-            *([] if any(line.startswith("pair_style") for line in late) else [self.PAIR]), "timestep 1e-6",
+            *([] if any(line.startswith("pair_style") for line in late) else pair), "timestep 1e-6",
             *([] if any("nve/sphere" in line for line in late) else [self.MOVE]), *late, "run 20"])
 
     def test_tables(self):
-        text = page("from_liggghts.md") + page("from_liggghts_walls.md")
+        text = page("from_liggghts.md", "from_liggghts_walls.md")
         scripts = [(theirs, commands(ours)) for theirs, ours, *_ in rows(text, "LIGGGHTS")]
         setup = [line for _, lines in scripts for line in lines
                  if line.split()[0] in ("atom_style", "comm_modify", "newton", "boundary", "neighbor", "neigh_modify")]
         block, = blocks(text)
-        law = block.splitlines()[0]
+        pair = block.splitlines()[:2]
         bodies = 0
         for theirs, lines in scripts:
             lines = [line for line in lines if line not in setup]
             if not lines:
                 continue
             with self.subTest(theirs):
-                log = self.run_lammps(self.script(setup, law, lines)).log
+                log = self.run_lammps(self.script(setup, pair, lines)).log
                 self.assertEqual(re.findall("WARNING.*", log), [])
                 bodies += "large/body" in log
         self.assertGreater(bodies, 8)
-        self.run_lammps(self.script(setup, law, block.splitlines()[1:]))
+        self.run_lammps(self.script(setup, [], block.splitlines()))
 
 
 class Choosing(PageCase):

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Contact history and large bodies in restart files: of a format that is known, or the reader says so."""
+"""Contact history in restart files, and which Talus wrote them; test_restart_damage.py has what is refused."""
 
 import os
 import random
@@ -8,6 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import restart_file
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 START = """
@@ -67,60 +68,24 @@ class HistoryRestart(SceneCase):
             log = self.run_lammps(START + "read_restart grazing.restart\n" + REST + "run 0\n").log
             self.assertIn("200 atoms", log)
 
-    def refuse(self, content, commands, message):
-        with open(self.path("other"), "wb") as file:
-            file.write(content)
-        for np in 1, 2:
-            log = self.run_lammps(START + "read_restart other\n" + commands, np=np, expect_error=True).log
-            self.assertIn(message, " ".join(log.split()))
-
     def test_version_of_talus(self):
-        """Laws of gran/penalty: files of format 2, which has none, are read; a newer Talus is worth a warning."""
+        """Of the laws of gran/penalty: a newer Talus is worth a warning."""
         with open(self.path("half"), "rb") as file:
             content = file.read()
         major, minor, patch = (int(n) for n in os.environ["TALUS_VERSION"].split("."))
         ours = 10000 * major + 100 * minor + patch
-        head = struct.pack("<iii", 0x54414c55, 3, ours)
-        self.assertEqual(content.count(head), 1)
+        part = next(part for part in restart_file.parts_of_talus(content)
+                    if struct.unpack_from("<i", content, part.begin + restart_file.SIZE_HEAD)[0] == ours)
+        at = part.begin + restart_file.SIZE_HEAD
+        data = struct.pack("<i", ours + 1) + content[at + 4:part.end]
+        with open(self.path("newer"), "wb") as file:
+            file.write(content[:at - 8] + restart_file.digest(restart_file.FORMAT_OF_LAWS, data) + data + content[part.end:])
         dumps = []
-        for name, other, warns in (("half", head, False), ("older", head[:4] + struct.pack("<i", 2), False),
-                                   ("newer", head[:8] + struct.pack("<i", ours + 1), True)):
-            with open(self.path(name), "wb") as file:
-                file.write(content.replace(head, other))
+        for name, warns in ("half", False), ("newer", True):
             log = self.run_lammps(START + f"read_restart {name}\n" + REST + "run 10\n" + END.format(name + ".dump")).log
             self.assertEqual("the restart file was written by a newer Talus" in log, warns)
             dumps += read_dump(self.path(name + ".dump"))
-        for dump in dumps[1:]:
-            self.assert_same_bits(dumps[0], dump)
-
-    def test_other_formats_are_refused(self):
-        with open(self.path("half"), "rb") as file:
-            content = file.read()
-        state = struct.pack("<id", 32, -4.0)    # length and version
-        self.assertEqual(content.count(state), 1)
-        for first, found in ((-5.0, 5), (-3.0, 3), (8.0, 1)):    # files of the first format begin with a length
-            self.refuse(content.replace(state, struct.pack("<id", 32, first)), REST + "run 0\n",
-                        f"the restart file holds contact history in the format {found}, and this version of Talus "
-                        "reads format 4: continue with the version that wrote it")
-
-    def test_large_bodies_of_other_versions_are_refused(self):
-        body = "fix floor all large/body plane 0 0 0.5 0 0 1 contact hertz 4000.0 40.0 move linear 0 0 0.1\n"
-        self.run_lammps(START + "read_data grains\n" + PAIR + REST + body + "run 10\nwrite_restart half\n")
-        with open(self.path("half"), "rb") as file:
-            content = file.read()
-        self.run_lammps(START + "read_restart half\n" + REST + body + "run 0\n")
-        # bytes, number of values, and the first one, which is the version, below zero; in the first version the number
-        # of particles
-        def version_at(k):
-            size, entries, first = struct.unpack("<idd", content[k:k + 20])
-            return first if size == 8 + 8 * entries and first in range(-9, 0) else None
-        found = [(k, version_at(k)) for k in range(len(content) - 20) if version_at(k)]
-        self.assertEqual(len(found), 1)
-        at, version = found[0]
-        for first in version - 1, version + 1, float(len(GRAINS)):
-            self.refuse(content[:at + 12] + struct.pack("<d", first) + content[at + 20:], REST + body,
-                        "Fix large/body floor: the restart file was written by another version of Talus, which kept other "
-                        "data of large bodies: go on with that version")
+        self.assert_same_bits(*dumps)
 
 
 if __name__ == "__main__":

@@ -109,9 +109,12 @@ def law_cases():
     for mode in "dashpot", "onestep NULL", "multistep 1e3":
         yield (f"flores 1e3 2.0 tangential {mode} NULL 0.5", "expected a number for gt instead of NULL: gn of "
                "flores has another unit", "NULL")
-    for words, surplus in ("midpoint midpoint", "midpoint"), ("stock slider", "slider"), ("slider slider", "slider"):
+    for words, surplus in ("midpoint midpoint", "midpoint"), ("stock slider", "slider"), ("slider slider", "slider"), ("spring stock", "stock"):
         yield (f"{GOOD} tangential multistep NULL NULL 0.5 {words}",
                f"surplus word '{surplus}' after tangential multistep", surplus)
+    for words in "spring midpoint", "midpoint spring":
+        yield (f"{GOOD} tangential multistep NULL NULL 0.5 {words}", "'spring' is a rule for the plain update: remove 'midpoint'",
+               words.split()[-1])
     yield f"{GOOD} tangential dashpot NULL 0.5 slider", None, "slider"
     yield ("hooke/material 1e6 0.5 0.3 1.0 tangential multistep 1e3 NULL 0.5",
            "expected NULL for kt: hooke/material takes kt = kn", "1e3")
@@ -202,7 +205,21 @@ OTHERS = [
      "have different laws: add 'pair_coeff 1 2 ...'", None),
     ("pair_coeff * * hooke 1e3 2.0 heat area 1.0\nrun 0", "heat is conducted between particles that have a "
      "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'", None),
+    # E and nu of types
+    ("pair_coeff * * hertz/material NULL 0.5 NULL", "E and nu = NULL are those of types I and J in 'pair_coeff I J' with I < J: "
+     "write numbers for types 1 and 1", None),
+    (f"{PAIR}pair_coeff 1 2 hertz/material NULL 0.5 0.3", "expected NULL for Poisson's ratio nu, as for Young's modulus E, instead of '0.3'", "0.3"),
+    (f"pair_coeff 1 1 hooke 1e3 2.0\npair_coeff 2 2 {GOOD}\npair_coeff 1 2 hertz/material NULL 0.5 NULL\nrun 0",
+     "E and nu of types 1 and 2 are NULL, and type 1 has no material to take them from: set 'pair_coeff 1 1'", None),
     # large/body
+    (f"{PAIR}{PLANE} contact hertz/material NULL 0.5 NULL", "fix large/body contact: E and nu = NULL are those of two types of particles, "
+     "in pair_coeff: write numbers, or give the body a 'type'", "hertz/material"),
+    (f"{PAIR}{PLANE} type", "fix large/body type: missing atom type", "type"),
+    (f"{PAIR}{PLANE} type 3", "fix large/body type: there are 2 atom types: make one for the body in create_box", "3"),
+    *((f"{PAIR}{PLANE} {words}", "the laws of a body are those of 'type', once, or of 'contact': remove one", marked) for words, marked in
+      (("type 2 type 1", "type"), ("type 2 contact hooke 1 1", "contact"), ("contact hooke 1 1 type 2", "type"))),
+    (f"pair_style none\n{PLANE} type 2\nrun 0", "Fix large/body floor: the body has the laws of type 2, and there is none for types 1 and 2: "
+     "set 'pair_style gran/penalty' and 'pair_coeff 1 2 ...'", None),
     (f"pair_coeff * * hooke 1e3 2.0\n{PLANE} contact {GOOD}\nrun 0",
      "Fix large/body floor: the material law hertz/material needs the material of particles of type 1", None),
     (f"pair_coeff 1 1 {GOOD}\npair_coeff 1 2 hooke 1e3 2.0\npair_coeff 2 2 hooke 1e3 2.0\n{PLANE} contact {GOOD}\n"
@@ -238,6 +255,7 @@ ACCEPTED = [
     "hertz/material 1e6 0.5 0.3 tangential multistep 1e6 0.5 0.5",
     "hooke/material 1e6 0.5 0.3 1.0 tangential multistep NULL 0.5 0.5",
     "plaincoulomb 1e3 2.0 0.0 rolling 0.1 delayed spinning 0.1 delayed adhesion perko 1.0 vmin 0 0 0 limit_damping",
+    f"{GOOD} tangential multistep NULL NULL 0.5 spring rolling 0.1",
     "limit_damping".join(["hooke 1e3 2.0 ", " spinning 0.1 tangential none"]),
     "hertz 1e3 2.0 tangential none rolling 0.0 spinning 0.0",
 ]
@@ -270,7 +288,7 @@ class LawErrors(SceneCase):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
-                             message or f"unknown word '{word}', expected contact, two-sided, move, servo, surface_velocity, gravity, load, "
+                             message or f"unknown word '{word}', expected contact, type, two-sided, move, servo, surface_velocity, gravity, load, "
                              "pressure, wear, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
                             for words, message, word in cases), "fix large/body")

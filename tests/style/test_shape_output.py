@@ -2,6 +2,7 @@
 # ctest: timeout=60
 """What can be seen of convex particles: dump vtk/gran, dump image, fix_modify orient, what the log says of other commands."""
 
+import math
 import os
 import sys
 import unittest
@@ -75,6 +76,31 @@ class ShapeOutput(SceneCase):
             self.assertGreater(total[2], 50.0)
             with open(self.path("run.0.png"), "rb") as file:
                 self.assertEqual(file.read(4), b"\x89PNG")
+
+    def test_pictures_of_shapes_alone(self):
+        """A cube of edge 2 and a ball of diameter 2, seen along an axis: with the sphere around it the cube cannot be seen."""
+        write_sphere_data(self.path("grains"), 3 * ((-4, 4),), [Sphere((0, 2, 0), diameter=2.0), Sphere((0, -2, 0), type=2)],
+                          types=3)
+        scene = SCENE.split("fix s all")[0] + "fix s all shape/gran type 2 box 2 2 2 density 2 type 3 box 1 1 1 density 1\n"
+        look = "size 200 200 view 90 0 box no 0 fsaa no shiny 0"
+        for name, words in (("alone", "all image 1 {}.*.ppm type diameter atom no fix s type 1 0.0"),
+                            ("balls", "balls image 1 {}.*.ppm type diameter fix s type 1 0.0"),
+                            ("spheres", "all image 1 {}.*.ppm type diameter fix s type 1 0.0")):
+            scene += f"dump {name} {words.format(name)} {look}\ndump_modify {name} acolor 1 red acolor 2 blue backcolor white\n"
+        self.run_lammps(scene + "run 0\n")
+        areas = {}
+        for name in "alone", "balls", "spheres":
+            with open(self.path(f"{name}.0.ppm"), "rb") as file:
+                pixels = file.read()[-3 * 200 * 200:]
+            kinds = [(pixels[k] > pixels[k + 2] + 15, pixels[k + 2] > pixels[k] + 15) for k in range(0, len(pixels), 3)]
+            areas[name] = [sum(kind[n] for kind in kinds) for n in (0, 1)]
+        cube = areas["alone"][1]
+        self.assertEqual(areas["alone"][0], 0)
+        self.assertGreater(cube, 500)
+        # the ball touches four sides of a square as large
+        self.assertAlmostEqual(areas["balls"][0] / cube, math.pi / 4, delta=0.05)
+        self.assertAlmostEqual(areas["balls"][1], cube, delta=0.01 * cube)
+        self.assertAlmostEqual(areas["spheres"][1] / cube, 3 * math.pi / 4, delta=0.1)
 
 
 if __name__ == "__main__":

@@ -371,6 +371,22 @@ run 40
                                     self.assertLessEqual(max_difference(frame, same, group), 1e-10 * scale,
                                                          f"{name} {kind} step {frame.step}")
 
+    def test_in_a_process_that_has_had_other_pair_styles(self):
+        """LAMMPS numbers them, and histories in files by these numbers."""
+        columns = ["vx", "vy", "vz", "fx", "fy", "fz", "tqx", "tqy", "tqz"]
+        for style in "hooke/history", "hertz/history":
+            for np in 1, 2:
+                with self.subTest(style=style, np=np):
+                    name = f"{style.replace('/', '-')}-{np}"
+                    self.one(True, "written-" + name, np, pair=f"pair_style {STYLES[style]}\npair_coeff * *", boundary="s s s",
+                             local=False, every=20, run="run 40\nwrite_restart restart")
+                    script = self.CONTINUE.format(file=self.path(f"written-{name}/restart"))
+                    os.makedirs(self.path(name))
+                    self.run_lammps(script.replace("20 state", "20 first") + "clear\n" + script, np=np, cwd=self.path(name),
+                                    arguments=["-sf", "talus"])
+                    for first, again in zip(read_dump(self.path(f"{name}/first")), read_dump(self.path(f"{name}/state"))):
+                        self.assertEqual(max_difference(first, again, columns), 0.0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -185,6 +185,26 @@ class TimestepCompute(SceneCase):
         self.check("plaincoulomb/material", f"pair_coeff * * plaincoulomb/material {young} 0.5 {nu} 0.5", TOUCHING,
                    (math.sqrt(m / (2 * e * math.sqrt(OVERLAP))), wave, 0))
 
+    def test_numbers_of_the_warning(self):
+        """What is told is above the limit, or nothing is; and only rules that are defined are."""
+        pairs = "pair_coeff * * hooke 1e6 10"
+        critical = math.sqrt(reduced(mass(0), mass(1)) / 1e6)
+        for fraction, told in ((0.2, []), (0.2005, []), (0.2012, ["0.201"]), (0.25, ["0.25"])):
+            self.compute(pairs, TOUCHING, dt=fraction * critical)
+            self.assertEqual([found[0] for found in re.findall(WARNING, self.log)], told)
+        self.assertRegex(self.log, r"critical one \((\S+); contact \1\): at most 0\.2 of it is advised")
+        self.compute("pair_coeff * * hertz/material 1e8 0.5 0.3", TOUCHING, dt=critical)
+        self.assertRegex(self.log, r"critical one \(\S+; contact \S+, Rayleigh \S+, Hertz \S+\): at most")
+
+    def test_cure_of_instability(self):
+        """Less damping is advised where it helps: not where the springs alone are too stiff."""
+        cures = r"are stable with the damping of their contacts \(\S+\): (.*)"
+        critical = math.sqrt(reduced(mass(0), mass(1)) / 1e6)
+        for gn, fraction, cure in ((0.0, 2.0, "use a smaller one"), (10.0, 2.0, "use a smaller one"),
+                                   (4000.0, 0.3, "use a smaller one, less damping (gt above all)")):
+            self.compute(f"pair_coeff * * hooke 1e6 {gn} tangential multistep NULL NULL 0.5", TOUCHING, dt=fraction * critical)
+            self.assertEqual(re.findall(cures, self.log), [cure])
+
     def test_group(self):
         """The sizes of the group's particles count; the contacts are those of all."""
         pairs = "pair_coeff * * hertz/material 1e8 0.5 0.3"

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// The choice between the instruction sets of a portable build.
+// The choice between the instruction sets of a portable build; what another build needs of a processor.
 
 #include "instruction_sets.h"
 
@@ -45,3 +45,25 @@ TEST(InstructionSets, ComplaintsNameVariableWordAndCure)
       "execute; use one of: baseline, avx2; or unset it, and Talus takes the fastest of them");
   EXPECT_NE(problem_of_isa("avx2", 0), "");
 }
+
+TEST(InstructionSets, WhatThisTestWasCompiledForIsNotMissing)
+{
+  EXPECT_EQ(missing_instructions(needed_instructions), "");
+  const std::string compiled = instruction_set();
+  const auto needs = [](const char *word) {
+    for (const char *const *one = needed_instructions; *one; one++)
+      if (std::string(word) == *one) return true;
+    return false;
+  };
+  EXPECT_EQ(needs("avx2"), compiled == "AVX2" || compiled == "AVX-512");
+  EXPECT_EQ(needs("avx512f"), compiled == "AVX-512");
+}
+
+#if defined(__x86_64__)
+TEST(InstructionSets, WhatIsMissingIsNamed)
+{
+  const char *const none[] = {nullptr}, *const two[] = {"avx1024f", "avx1024vl", nullptr};
+  EXPECT_EQ(missing_instructions(none), "");
+  EXPECT_EQ(missing_instructions(two), "avx1024f, avx1024vl");
+}
+#endif

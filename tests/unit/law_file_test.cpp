@@ -2,10 +2,12 @@
 //
 // Contact laws from words, and through restart files: names and numbers, nothing else.
 
+#include "comma_locale.h"
 #include "laws/contact_words.h"
 #include "laws/law_list.h"
 #include "material/contact_spec.h"
 #include "material/law_file.h"
+#include "material/pair_coeffs.h"
 
 #include <gtest/gtest.h>
 
@@ -68,9 +70,9 @@ TEST(LawFile, NamesTheLawThatIsMissing)
     from_bytes(bytes);
     FAIL();
   } catch (const std::runtime_error &problem) {
-    EXPECT_NE(std::string(problem.what())
-                  .find("normal law 'hurts' (version 3), which this Talus does not have"),
-              std::string::npos);
+    EXPECT_NE(
+        std::string(problem.what()).find("normal law 'hurts', which this Talus does not have"),
+        std::string::npos);
   }
 }
 
@@ -89,16 +91,16 @@ TEST(LawFile, NoticesThatItEndsEarly)
   EXPECT_EQ(complete, numbers);    // 0 ... numbers-1 of them
 }
 
-TEST(LawFile, RefusesOtherVersions)
+TEST(PairCoeffs, TellNumbersInAnyLocale)
 {
-  EXPECT_EQ(problem_of_law_file(law_file_mark, law_file_version), "");
-  EXPECT_EQ(problem_of_law_file(law_file_mark, oldest_law_file), "");
-  EXPECT_NE(problem_of_law_file(0, 0).find(
-                "before they had versions, this Talus reads versions 2 to 3: write a data file"),
-            std::string::npos);
-  EXPECT_NE(
-      problem_of_law_file(law_file_mark, 7).find("of version 7, this Talus reads versions 2 to 3"),
-      std::string::npos);
+  PairCoeffs pairs;
+  pairs.resize(1);
+  pairs.set(1, 1, read("hooke 1e4 0.5"));
+  const CommaLocale comma;
+  ASSERT_TRUE(comma.works);
+  const std::string text = pairs.describe_pair(1, 1);
+  EXPECT_NE(text.find(" kn 10000 "), std::string::npos) << text;
+  EXPECT_NE(text.find(" 0.5"), std::string::npos) << text;
 }
 
 TEST(Words, ChooseTheRuleOfSlip)

@@ -119,6 +119,31 @@ TEST(SizeDistribution, quantiles)
               1e6, 1e3);
 }
 
+// By mass: the density by number is that by mass over the cube of the diameter, here summed over many small steps.
+TEST(SizeDistribution, wide_ones_by_mass)
+{
+  for (const double sigma : {0.3, 1.0, 2.5, 2.8, 3.5, 6.0, 10.0}) {
+    const double median = 1.0, lo = 0.5, hi = 30.0;
+    const SizeDistribution sizes =
+        sizes_of("lognormal 1 " + std::to_string(sigma) + " 0.5 30 mass");
+    constexpr int steps = 200000;
+    const double step = std::log(hi / lo) / steps;
+    std::vector<double> share{0.0};    // up to lo exp(n step), cumulated
+    for (int n = 0; n < steps; n++) {
+      const double d = lo * std::exp((n + 0.5) * step), x = std::log(d / median) / sigma;
+      share.push_back(share.back() + std::exp(-0.5 * x * x) / (d * d * d));
+    }
+    for (const double q : {0.01, 0.3, 0.5, 0.9, 0.999}) {
+      const auto place = std::lower_bound(share.begin(), share.end(), q * share.back());
+      const double expected = lo * std::exp(step * static_cast<double>(place - share.begin()));
+      EXPECT_NEAR(sizes.quantile(q), expected, 1e-4 * expected) << sigma << " " << q;
+    }
+  }
+  EXPECT_THROW(sizes_of("lognormal 1 20 0.5 30 mass"), std::runtime_error);
+  EXPECT_THROW(sizes_of("lognormal 1 0.01 5 6"), std::runtime_error);
+  EXPECT_EQ(sizes_of("lognormal 1 0.5 2 2 mass").quantile(0.5), 2.0);
+}
+
 // Also where the largest spheres have most of the volume, and there are few.
 TEST(SizeDistribution, spheres_have_the_volume)
 {

@@ -2,6 +2,7 @@
 //
 // The reader of words: what it accepts, and for everything else the index and the whole text of the error.
 
+#include "base/number_text.h"
 #include "base/words.h"
 
 #include "comma_locale.h"
@@ -370,6 +371,9 @@ TEST(Numbers, DoNotDependOnTheLocale)
   ASSERT_TRUE(comma.works);
   ASSERT_EQ(std::strtod("0,5", nullptr), 0.5);
   EXPECT_EQ(number("0.5"), 0.5);
+  EXPECT_EQ(number_text(1234.5), "1234.5");
+  EXPECT_EQ(number_text(1.0 / 3.0, 4), "0.3333");
+  EXPECT_EQ(number_text(-2.5e-7), "-2.5e-07");
   expect_fault(
       "0,5", [](Words &w) { w.number("n"); }, 0, "command: expected n (a number) instead of '0,5'");
   expect_fault(

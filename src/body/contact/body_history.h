@@ -104,7 +104,7 @@ class BodyHistory {
   /// Zero where a contact is new.
   Record &record(std::size_t slot, int k = 0) { return rows.record(slot, k); }
   HistoryValues values(std::size_t slot) const { return rows.values(slot); }
-  void set_values(std::size_t slot, const HistoryValues &values) { rows.read(slot, values.data()); }
+  void set_values(std::size_t slot, const HistoryValues &values) { rows.set_values(slot, values); }
 
   /// Without several(): which of the candidates 8 block ... 8 block + 7 touch now, of those whose
   /// bits are set in `asked`. Histories of those that touched and no longer do are cleared.

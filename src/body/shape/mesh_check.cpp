@@ -2,10 +2,11 @@
 
 #include "body/shape/mesh_check.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -100,10 +101,8 @@ Triangle MeshCheck::triangle(const Places &places, int t) const
 std::string MeshCheck::name_of(int t, const Places &places) const
 {
   const Vector3<double> &x = places[mesh.corners(t).vertex[0]];
-  char text[128];
-  std::snprintf(text, sizeof text, "triangle %d (first corner at %.6g %.6g %.6g)", t, x.x, x.y,
-                x.z);
-  return text;
+  return "triangle " + std::to_string(t) + " (first corner at " + number_text(x.x) + " " +
+         number_text(x.y) + " " + number_text(x.z) + ")";
 }
 
 std::string MeshCheck::problem(const Places &now, const Places &then)

@@ -9,8 +9,6 @@
 namespace Talus {
 namespace {
 
-constexpr double depth = 0.25;    // of the images, over the period: more than any particle reaches
-
 std::array<int, 3> sorted(const Corners &corners)
 {
   std::array<int, 3> all{corners.vertex[0], corners.vertex[1], corners.vertex[2]};
@@ -35,12 +33,6 @@ std::array<bool, 3> PeriodicEdges::ended(const Eigen::AlignedBox3d &extent) cons
 MeshImages images_behind_faces(MeshVertices &vertices, const std::vector<Corners> &triangles,
                                const Eigen::AlignedBox3d &box, const std::array<bool, 3> &edges)
 {
-  Eigen::AlignedBox3d kept = box;
-  for (int d = 0; d < 3; d++) {
-    const double more = edges[d] ? depth * box.sizes()[d] : HUGE_VAL;
-    kept.min()[d] -= more;
-    kept.max()[d] += more;
-  }
   std::set<std::array<int, 3>> seen;
   for (const Corners &corners : triangles) seen.insert(sorted(corners));
   MeshImages images;
@@ -53,16 +45,9 @@ MeshImages images_behind_faces(MeshVertices &vertices, const std::vector<Corners
     const Vector3<double> shift{step[0] * box.sizes()[0], step[1] * box.sizes()[1],
                                 step[2] * box.sizes()[2]};
     for (std::size_t t = 0; t < triangles.size(); t++) {
-      Eigen::AlignedBox3d around;
-      Vector3<double> place[3];
-      for (int c = 0; c < 3; c++) {
-        place[c] = vertices.all()[triangles[t].vertex[c]] + shift;
-        around.extend(to_eigen(place[c]));
-      }
-      if (!kept.intersects(around)) continue;
       Corners image;
       for (int c = 0; c < 3; c++) {
-        image.vertex[c] = vertices.at(place[c]);
+        image.vertex[c] = vertices.at(vertices.all()[triangles[t].vertex[c]] + shift);
         if (vertices.all().size() > num_own + images.vertices.size())
           images.vertices.push_back({triangles[t].vertex[c], shift});
       }

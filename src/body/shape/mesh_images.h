@@ -38,9 +38,9 @@ struct MeshImages {
   std::vector<Vertex> vertices;
 };
 
-/// Images, one period away along each of these edges, of all triangles that are then not further
-/// than a share of the period beyond a face; without those that are there already. `vertices` are
-/// those of the mesh; new ones are added.
+/// Images, one period away along each of these edges, of all triangles; without those that are there already.
+/// So a particle between the faces may reach, and one that is beyond them may be and reach, over them by a period.
+/// `vertices` are those of the mesh; new ones are added.
 MeshImages images_behind_faces(MeshVertices &vertices, const std::vector<Corners> &triangles,
                                const Eigen::AlignedBox3d &box, const std::array<bool, 3> &edges);
 

@@ -2,10 +2,10 @@
 //
 // A mesh whose vertices move.
 
+#include "base/number_text.h"
 #include "body/shape/mesh_shape.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 namespace Talus {
@@ -34,14 +34,10 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
     largest = gone;
     farthest = v;
   }
-  if (largest > way) {
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "vertex %d would go %.4g in one step, which is more than the skin %.4g: give "
-                  "places more often, or for more steps ahead",
-                  farthest, largest, way);
-    return text;
-  }
+  if (largest > way)
+    return "vertex " + std::to_string(farthest) + " would go " + number_text(largest, 4) +
+           " in one step, which is more than the skin " + number_text(way, 4) +
+           ": give places more often, or for more steps ahead";
   MovingVertices::Places then = vertices->with_images(places);
   const std::string problem = check->problem(now, then);
   if (!problem.empty()) return problem;

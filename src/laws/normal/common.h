@@ -60,13 +60,21 @@ inline void read_numbers(LawReader &r, Damping damping)
   read_damping(r, damping);
 }
 
-/// E, e, nu of the words.
+/// E, e, nu of the words; both E and nu may be NULL: those of two types, see moduli_of_types in
+/// material/contact_spec.h.
 inline void read_material(LawReader &r, Damping damping)
 {
   GivenNumbers &given = r.spec.given;
-  given["E"] = r.words.positive("Young's modulus E") * r.pressure_unit;
+  const bool of_types = r.words.take("NULL");
+  if (!of_types) given["E"] = r.words.positive("Young's modulus E") * r.pressure_unit;
   read_damping(r, damping);
-  given["nu"] = r.words.between("Poisson's ratio nu", -1.0, 0.5, true);
+  if (!of_types)
+    given["nu"] = r.words.between("Poisson's ratio nu", -1.0, 0.5, true);
+  else if (r.words.take("NULL"))
+    given["moduli_of_types"] = 1.0;
+  else
+    r.words.fail(0, "expected NULL for Poisson's ratio nu, as for Young's modulus E, instead of '" +
+                        r.words.peek() + "'");
 }
 
 inline double mixed_young(const Mixing &m)

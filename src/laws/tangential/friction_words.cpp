@@ -48,7 +48,10 @@ void MultistepStock::read(LawReader &r)
   read_friction(r, true, true);
   bool midpoint = false;
   std::string rule;
-  for (std::string word = r.words.peek(); word == "midpoint" || word == "stock" || word == "slider";
+  const auto is_rule = [](const std::string &word) {
+    return word == "stock" || word == "slider" || word == "spring";
+  };
+  for (std::string word = r.words.peek(); word == "midpoint" || is_rule(word);
        word = r.words.peek()) {
     r.words.skip(1);
     if (word == "midpoint" ? midpoint : !rule.empty())
@@ -58,9 +61,11 @@ void MultistepStock::read(LawReader &r)
     else
       rule = word;
   }
-  const bool stock = rule.empty() ? r.spec.law.normal().like_stock : rule == "stock";
+  if (rule.empty()) rule = r.spec.law.normal().like_stock ? "stock" : "slider";
+  if (midpoint && rule == "spring")
+    r.words.fail(1, "'spring' is a rule for the plain update: remove 'midpoint', or use 'slider'");
   const std::string name =
-      std::string("multistep") + (stock ? "" : " slider") + (midpoint ? " midpoint" : "");
+      "multistep" + (rule == "stock" ? "" : " " + rule) + (midpoint ? " midpoint" : "");
   r.spec.law.choose(Stage::TANGENTIAL, find_law(Stage::TANGENTIAL, name));
 }
 

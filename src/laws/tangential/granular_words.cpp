@@ -20,7 +20,7 @@ void read_granular_friction(LawReader &r, bool with_kt, bool null_allowed)
     given["kt"] = null_allowed ? kt * r.pressure_unit : kt;
   else if (with_kt && !null_allowed)
     r.words.fail(r.words.index() - at_kt, "expected a number for kt instead of NULL");
-  else if (with_kt && !given.has("E"))
+  else if (with_kt && !given.has("E") && !given.has("moduli_of_types"))
     r.words.fail(r.words.index() - at_kt,
                  std::string("expected a number for kt instead of NULL: ") + normal.name +
                      " has no material to take it from");

@@ -6,6 +6,7 @@
 #include "laws/stage_lists.h"
 #include "laws/tangential/dashpot.h"
 #include "laws/tangential/granular.h"
+#include "laws/tangential/limited_spring.h"
 #include "laws/tangential/multistep.h"
 #include "laws/tangential/none.h"
 #include "laws/tangential/onestep.h"
@@ -24,6 +25,7 @@ std::vector<const Law *> tangential_laws()
       &law<Multistep<true, false>>,
       &law<Multistep<false, true>>,
       &law<Multistep<true, true>>,
+      &law<MultistepSpring>,
       &law<Tanh>,
       &law<LinearNoHistory>,
       &law<LinearHistory>,

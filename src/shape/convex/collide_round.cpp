@@ -20,6 +20,9 @@ using Vector = Vector3<double>;
 
 constexpr int rim_points = 12;
 
+// Cosine of the angle between normals on both sides of a point of an edge: below, they are two.
+constexpr double no_kink = 1.0 - 1.0e-12;
+
 class RoundContacts {
  public:
   RoundContacts(const ConvexShape &shape, const Pose &particle_pose, const Frustum &frustum,
@@ -36,6 +39,7 @@ class RoundContacts {
     add_edges();
     if (body.is_infinite()) return;
     for (const int end : {0, 1}) add_rim(end);
+    for (std::size_t k = 0; k < edges.size(); k++) points[first_edge + k].weight *= edges[k].slope;
     sort_by_name(points);
   }
 
@@ -68,8 +72,22 @@ class RoundContacts {
     const int contact = add(on_particle, normal, overlap, name);
     points[contact].weight = energy.weight();
     points[contact].energy = energy.energy();
-    energy.take_from(points);
+    take_shares();
     return contact;
+  }
+  /// Also from the ends of edges, which have less to do with this than the edges themselves have.
+  void take_shares()
+  {
+    energy.visit_ends([this](int contact, double share, double weight) {
+      if (contact < first_edge || contact >= first_edge + static_cast<int>(edges.size())) {
+        points[contact].weight -= weight;
+        return;
+      }
+      const EdgeContact &edge = edges[contact - first_edge];
+      const double part = weight / share;
+      points[contact].weight -= part * edge.weight;
+      for (int k = 0; k < edge.num_ends; k++) points[edge.end[k]].weight += part * edge.taken[k];
+    });
   }
   /// With the share that it has left to its own ends, so that it counts less the nearer it is to them.
   void add_end(int contact)
@@ -90,6 +108,13 @@ class RoundContacts {
     double distance;
     int contact;    // or -1
   };
+  /// The contact of an edge: its weight and what it takes from its ends, before rims share with it; and
+  /// by how much its overlap changes as it moves along its normal.
+  struct EdgeContact {
+    double weight, slope;
+    int num_ends, end[2];
+    double taken[2];
+  };
   const ConvexCore &core;
   const Pose &pose;
   const Frustum &body;
@@ -98,7 +123,8 @@ class RoundContacts {
   // of this thread, used again
   struct Buffers {
     std::vector<Vertex> vertices;
-    std::vector<int> of_edge;    // its contact between the ends, or -1
+    std::vector<int> of_edge;          // its contact between the ends, or -1
+    std::vector<EdgeContact> edges;    // those, in the order of their contacts
     SharedEnergy energy;
   };
   static Buffers &buffers()
@@ -108,6 +134,8 @@ class RoundContacts {
   }
   std::vector<Vertex> &vertices = buffers().vertices;
   std::vector<int> &of_edge = buffers().of_edge;
+  std::vector<EdgeContact> &edges = buffers().edges;
+  int first_edge = 0;    // the contact of the first one
   SharedEnergy &energy = buffers().energy;
 };
 
@@ -128,6 +156,8 @@ void RoundContacts::add_vertices()
 void RoundContacts::add_edges()
 {
   of_edge.assign(core.num_edges(), -1);
+  edges.clear();
+  first_edge = static_cast<int>(points.size());
   for (int e = 0; e < core.num_edges(); e++) {
     const int *end = core.edge(e).vertex;
     const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
@@ -138,7 +168,8 @@ void RoundContacts::add_edges()
   }
 }
 
-/* By bisection of the slope. */
+/* By bisection of the slope. Inside the body it may jump there, between a cap and the mantle: the
+   overlap then changes as along the mean of both normals that is perpendicular to the edge. */
 
 void RoundContacts::add_edge(int e)
 {
@@ -146,19 +177,35 @@ void RoundContacts::add_edge(int e)
   const Vertex &a = vertices[end[0]], &b = vertices[end[1]];
   const Vector along = b.place - a.place;
   double low = 0.0, high = 1.0, least = reach;
-  Vector outward = a.outward, place = a.place;
+  Vector outward = a.outward, place = a.place, before = a.outward, beyond = b.outward;
   for (int step = 0; step < 48; step++) {
     const double middle = 0.5 * (low + high);
     place = a.place + middle * along;
     least = distance(place, outward);
-    (dot(outward, along) < 0.0 ? low : high) = middle;
+    const bool falls = dot(outward, along) < 0.0;
+    (falls ? low : high) = middle;
+    (falls ? before : beyond) = outward;
   }
   const double overlap = radius - least;
   if (!(overlap > 0.0)) return;
+  double slope = 1.0;
+  if (dot(before, beyond) < no_kink) {
+    const double falling = -dot(before, along), rising = dot(beyond, along);
+    outward = (1.0 / (falling + rising)) * (rising * before + falling * beyond);
+    slope = length(outward);
+    outward = slope > 0.0 ? (1.0 / slope) * outward : before;
+  }
   energy.begin(overlap, force_exponent);
   add_end(a.contact);
   add_end(b.contact);
   of_edge[e] = add_shared(place, outward, overlap, contact_name(ContactParts::EDGES, e, 0));
+  if (of_edge[e] < 0) return;
+  EdgeContact edge{energy.weight(), slope, 0, {}, {}};
+  energy.visit_ends([&edge](int contact, double /*share*/, double weight) {
+    edge.end[edge.num_ends] = contact;
+    edge.taken[edge.num_ends++] = weight;
+  });
+  edges.push_back(edge);
 }
 
 /* ---- rims ------------------------------------------------------------------------------------- */

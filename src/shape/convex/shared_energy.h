@@ -39,7 +39,14 @@ class SharedEnergy {
   double energy() const { return product; }
   void take_from(std::vector<ShapeContact> &contacts) const
   {
-    for (const End &end : ends) contacts[end.contact].weight -= end.weight;
+    visit_ends(
+        [&](int contact, double /*share*/, double weight) { contacts[contact].weight -= weight; });
+  }
+  /// visit(contact, share, weight): what this takes from the weight of the contact, as long as the share
+  /// does not change.
+  template <class Visit> void visit_ends(Visit visit) const
+  {
+    for (const End &end : ends) visit(end.contact, end.share, end.weight);
   }
 
  private:

@@ -1,8 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Superellipsoids and meshes. A triangle is touched where the shape is lowest, if that is over it; an edge that
-// stands out, at the point that is deepest in the shape; and a corner, each if the normal is one of those of the
-// part. In a hollow that is cut into facets the deepest contact of one smooth patch counts, as for spheres.
+// Superellipsoids and meshes. A face is touched where the shape is lowest, if that is over it; an edge that stands
+// out, at the point that is deepest in the shape; and a corner, each if the normal is one of those of the part. What
+// belongs to what is told by signs: on which side of the edges of a triangle a point is, to which faces a direction
+// leads. No distance is compared with another one that is the same but for rounding.
+//
+// Faces that meet at a ridge in the shape are one place, as those of a convex body: of such contacts the least deep
+// counts. In a hollow that is cut into facets the deepest one of a smooth patch does, as for spheres.
 
 #include "body/shape/mesh_shape.h"
 #include "shape/mesh_features.h"
@@ -11,6 +15,7 @@
 #include "shape/superellipsoid/touch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace Talus {
 namespace {
@@ -21,43 +26,179 @@ using Ridge = MeshFeatures::Ridge;
 using MeshCorner = MeshFeatures::Corner;
 
 constexpr double at_border = 1.0e-9;    // sine, see superellipsoid_solids.cpp
+constexpr double at_joint = 2.0e-6;     // pieces of one edge may be bent so much where they meet
+
+/// A face, edge or corner that reaches into the shape; of a face, all triangles of one plane.
+struct Candidate {
+  enum Kind { FACE, EDGE, CORNER };
+  Found found;
+  Kind kind;
+  int triangle, plane;
+  ContactParts parts;
+  std::uint32_t surface;    ///< the second half of its name
+  bool is_over = false;     ///< of a face: the lowest point is, as seen along the normal,
+  bool is_cut = false;      ///< and the straight line from there to the center goes through it
+  bool counts = false;
+};
+
+/// Which planes are in one place.
+class Places {
+ public:
+  void clear() { links.clear(); }
+  void join(int plane, int other)
+  {
+    if (plane != other) links.emplace_back(plane, other);
+  }
+  /// When all are joined; then of() is the same for all planes of a place.
+  void settle()
+  {
+    planes.clear();
+    for (const auto &[a, b] : links) planes.insert(planes.end(), {a, b});
+    std::sort(planes.begin(), planes.end());
+    planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+    leader = planes;
+    for (const auto &[a, b] : links) {
+      const int one = of(a), other = of(b);
+      leader[index(std::max(one, other))] = std::min(one, other);
+    }
+  }
+  int of(int plane) const
+  {
+    if (!std::binary_search(planes.begin(), planes.end(), plane)) return plane;
+    while (leader[index(plane)] != plane) plane = leader[index(plane)];
+    return plane;
+  }
+
+ private:
+  std::ptrdiff_t index(int plane) const
+  {
+    return std::lower_bound(planes.begin(), planes.end(), plane) - planes.begin();
+  }
+  std::vector<std::pair<int, int>> links;
+  std::vector<int> planes, leader;    // ascending; of each a lower one of its place, or itself
+};
 
 class WithMesh {
  public:
   WithMesh(const PlacedSuperellipsoid &a, const MeshSurface &mesh, ShapeContacts &found_contacts) :
       touch(a.geometry, a.pose), center(a.pose.position), reach(a.geometry.bounding_radius()),
-      surface(*mesh.shape), features(*mesh.features), contacts(found_contacts)
+      rounding(1.0e-14 * (length(center) + reach)), surface(*mesh.shape), features(*mesh.features),
+      contacts(found_contacts)
   {
   }
 
   void find()
   {
     if (!find_near_triangles(surface, center, reach, with.parts, with.near)) return;
-    for (const NearTriangle &one : with.near) add_face(one);
+    with.candidates.clear();
+    with.places.clear();
+    with.edges_of.clear();
+    add_faces();
     const MeshDetail &detail = surface.near_detail();
     for (const NearPart &part : with.parts) {
       const int t = detail.number(part.part);
       features.visit_ridges(t, [&](const Ridge &ridge) { add_ridge(ridge, t); });
       features.visit_corners(t, [&](const MeshCorner &corner) { add_corner(corner, t); });
     }
-    std::sort(contacts.points.begin(), contacts.points.end(),
-              [](const ShapeContact &a, const ShapeContact &b) {
-                return a.name != b.name ? a.name < b.name : a.surface < b.surface;
-              });
+    if (with.candidates.empty()) return;
+    settle_faces();
+    keep_one_of_each_place();
+    add_contacts();
   }
 
  private:
-  void add_face(const NearTriangle &one)
+  /* ---- faces ---- */
+
+  /// A plane of which triangles are near, and where the shape is below it.
+  struct Below {
+    int plane = -1;
+    double side = 0.0;
+    Found lowest{};
+    Vector crossing{};
+  };
+
+  void add_faces()
   {
-    const Found found = touch.plane(one.normal, one.offset);
-    if (!(found.overlap > 0.0)) return;
-    const NearestPoint nearest = surface.near_detail().nearest(one.part, found.place);
-    // at the border of two triangles of one plane both count, and become one contact
-    if (nearest.square > found.overlap * found.overlap * (1.0 + 1.0e-12)) return;
-    if (!touch.is_proven(found)) return;
-    add(found, one.triangle, ContactParts::WHOLE,
-        static_cast<std::uint32_t>(surface.surface().patch(one.triangle)));
+    Below below;
+    for (const NearTriangle &one : with.near) {
+      const int plane = surface.surface().plane_of(one.triangle);
+      if (plane != below.plane || one.side != below.side) {
+        below.plane = plane;
+        below.side = one.side;
+        below.lowest = touch.plane(one.normal, one.offset);
+        if (below.lowest.overlap > 0.0)
+          below.crossing = touch.crossing(below.lowest, one.height(center));
+      }
+      if (below.lowest.overlap > 0.0) add_face(one, below);
+    }
   }
+  void add_face(const NearTriangle &one, const Below &below)
+  {
+    const Vector normal = one.side * one.normal;
+    const bool is_over = is_in(one.triangle, normal, below.lowest.place),
+               is_cut = is_in(one.triangle, normal, below.crossing);
+    auto &all = with.candidates;
+    auto face = std::find_if(all.rbegin(), all.rend(),
+                             [&](const Candidate &other) { return other.plane == below.plane; });
+    if (face == all.rend()) {
+      all.push_back({below.lowest, Candidate::FACE, one.triangle, below.plane, ContactParts::WHOLE,
+                     patch_of(one.triangle)});
+      face = all.rbegin();
+    }
+    if (is_over ? !face->is_over : is_cut && !face->is_over && !face->is_cut)
+      face->triangle = one.triangle;
+    face->is_over |= is_over;
+    face->is_cut |= is_cut;
+  }
+  std::uint32_t patch_of(int t) const
+  {
+    return static_cast<std::uint32_t>(surface.surface().patch(t));
+  }
+  /// Seen along the normal of its plane, is the point in the triangle? At its border by rounding, perhaps: then it is
+  /// in that beside it as well.
+  bool is_in(int t, const Vector &normal, const Vector &x) const
+  {
+    const Triangle triangle = surface.surface().triangle(t);
+    for (int k = 0; k < 3; k++) {
+      const Vector &from = triangle.corner[k], edge = triangle.corner[(k + 1) % 3] - from;
+      const double side = dot(cross(edge, x - from), normal);
+      if (side < 0.0 && side * side > rounding * rounding * dot(edge, edge)) return false;
+    }
+    return true;
+  }
+  /* A face whose edges are touched is a part of that place. Another one counts if the lowest point is over it and it is
+     touched; or if it is all that is touched. */
+  void settle_faces()
+  {
+    auto &all = with.candidates;
+    const auto &edges_of = with.edges_of;
+    bool is_found = false;
+    for (Candidate &one : all) {
+      one.counts = one.kind != Candidate::FACE ||
+                   std::find(edges_of.begin(), edges_of.end(), one.plane) != edges_of.end() ||
+                   (one.is_over && is_touched(one));
+      is_found |= one.counts;
+    }
+    all.erase(
+        std::remove_if(all.begin(), all.end(),
+                       [&](const Candidate &one) { return is_found ? !one.counts : !one.is_cut; }),
+        all.end());
+  }
+  /* The line from the center meets it; or a point of it is known that is in the shape; or the line meets the surface
+     elsewhere, and both are one place. */
+  bool is_touched(const Candidate &face)
+  {
+    if (face.is_cut || touch.is_inside(face.found.other())) return true;
+    for (const NearTriangle &near : with.near)
+      if (surface.near_detail().is_between(near.part, center, face.found.place)) {
+        with.places.join(face.plane, surface.surface().plane_of(near.triangle));
+        return true;
+      }
+    return false;
+  }
+
+  /* ---- edges and corners ---- */
+
   void add_ridge(const Ridge &ridge, int t)
   {
     const Vector d = center - ridge.from;
@@ -65,12 +206,22 @@ class WithMesh {
     const Vector away = d - along * ridge.along;
     if (dot(away, away) >= reach * reach) return;
     if (!may_act(ridge)) return;
-    Found found;
-    if (!touch.edge(ridge.from, ridge.along, 0.0, 0.0, found)) return;
-    const Vector m = -found.normal;
+    const SuperellipsoidTouch::AlongLine line =
+        touch.edge(ridge.from, ridge.along, 0.0, 0.0, at_joint);
+    if (!line.touches) return;
+    for (const int plane : ridge.planes)
+      if (plane >= 0) with.edges_of.push_back(plane);
+    if (ridge.planes[1] >= 0) with.places.join(ridge.planes[0], ridge.planes[1]);
+    if (!line.is_within) return;
+    const Vector m = -line.deepest.normal;
     if (dot(m, ridge.inward[0]) > at_border || dot(m, ridge.inward[1]) > at_border) return;
     if (!acts(m, ridge.outward)) return;
-    add(found, t, ContactParts::EDGES, ridge.name);
+    // that of two facets of a smooth patch is named by the patch, on which friction goes on
+    const bool is_smooth =
+        ridge.planes[1] >= 0 && patch_of(ridge.planes[0]) == patch_of(ridge.planes[1]);
+    with.candidates.push_back({line.deepest, Candidate::EDGE, t, ridge.planes[0],
+                               is_smooth ? ContactParts::WHOLE : ContactParts::EDGES,
+                               is_smooth ? patch_of(t) : ridge.name});
   }
   void add_corner(const MeshCorner &corner, int t)
   {
@@ -87,7 +238,27 @@ class WithMesh {
       }
     });
     if (!is_of_corner || !acts(m, corner.outward)) return;
-    add(found, t, ContactParts::VERTEX_OF_B, static_cast<std::uint32_t>(corner.vertex));
+    const int plane = mesh.plane_of(t);
+    features.visit_around(corner.vertex,
+                          [&](int triangle) { with.places.join(plane, mesh.plane_of(triangle)); });
+    const bool is_smooth = is_in_smooth_patch(corner.vertex, t);
+    with.candidates.push_back(
+        {found, Candidate::CORNER, t, plane,
+         is_smooth ? ContactParts::WHOLE : ContactParts::VERTEX_OF_B,
+         is_smooth ? patch_of(t) : static_cast<std::uint32_t>(corner.vertex)});
+  }
+  /// Inside of one, not at its border.
+  bool is_in_smooth_patch(int vertex, int t) const
+  {
+    bool is_smooth = true;
+    features.visit_around(vertex, [&](int triangle) {
+      is_smooth &= patch_of(triangle) == patch_of(t);
+      const int *const corner = surface.surface().corners(triangle).vertex;
+      for (int k = 0; k < 3; k++)
+        if (corner[k] == vertex || corner[(k + 1) % 3] == vertex)
+          is_smooth &= features.edge_kind(triangle, k) != EdgeKind::BOUNDARY;
+    });
+    return is_smooth;
   }
   /// A ridge is one from in front, a valley from behind: where that side acts, and the center is on it.
   bool may_act(const Ridge &ridge) const
@@ -108,24 +279,54 @@ class WithMesh {
     if (in_front == 0.0) return true;
     return surface.side() != (in_front > 0.0 ? MeshSide::BACKS : MeshSide::NORMALS);
   }
-  /// Contacts with one smooth patch, or with pieces of one edge, whose normals are nearly the same are one: the
-  /// deepest. Others of the patch are counted by their names.
-  void add(const Found &found, int t, ContactParts parts, std::uint32_t part_name)
+
+  /* ---- what counts ---- */
+
+  /// Where the normal of an edge is that of a face but for rounding it is the face.
+  double rank(const Candidate &one) const
   {
-    ShapeContact contact = shape_contact(found, 0.0, 0);
-    contact.surface = part_name;
-    contact.part = surface.part_of(t);
-    int others = 0;
-    for (ShapeContact &one : contacts.points) {
-      if (one.surface != part_name || parts_of(one.name) != parts) continue;
-      if (dot(one.normal, contact.normal) > TriangleMesh::smooth_cosine) {
-        contact.name = one.name;
-        if (one.overlap < contact.overlap) one = contact;
-        return;
-      }
-      others++;
+    return one.kind == Candidate::FACE ? one.found.overlap : one.found.overlap + rounding;
+  }
+  void keep_one_of_each_place()
+  {
+    auto &all = with.candidates;
+    if (all.size() < 2) return;
+    with.places.settle();
+    for (Candidate &one : all) one.plane = with.places.of(one.plane);
+    std::sort(all.begin(), all.end(), [&](const Candidate &a, const Candidate &b) {
+      return rank(a) != rank(b) ? rank(a) < rank(b) : a.triangle < b.triangle;
+    });
+    auto kept = all.begin();
+    for (const Candidate &one : all)
+      if (std::none_of(all.begin(), kept,
+                       [&](const Candidate &other) { return other.plane == one.plane; }))
+        *kept++ = one;
+    all.erase(kept, all.end());
+  }
+  /// Of contacts with faces of one smooth patch, or with pieces of one edge, whose normals are nearly the same the
+  /// deepest.
+  void add_contacts()
+  {
+    auto &all = with.candidates;
+    for (auto one = all.rbegin(); one != all.rend(); ++one) {
+      one->counts = std::none_of(all.rbegin(), one, [&](const Candidate &deeper) {
+        return deeper.counts && deeper.parts == one->parts && deeper.surface == one->surface &&
+               (deeper.kind == Candidate::FACE) == (one->kind == Candidate::FACE) &&
+               dot(one->found.normal, deeper.found.normal) > TriangleMesh::smooth_cosine;
+      });
+      if (one->counts) add_contact(*one);
     }
-    contact.name = contact_name(parts, 0, others);
+  }
+  void add_contact(const Candidate &one)
+  {
+    const std::uint32_t name =
+        one.parts == ContactParts::WHOLE
+            ? place_name((1.0 / length(one.found.place - center)) * (one.found.place - center))
+            : contact_name(one.parts, 0, 0);
+    ShapeContact contact = shape_contact(one.found, 0.0, name);
+    contact.surface = one.surface;
+    contact.part = surface.part_of(one.triangle);
+    contact.is_named_by_place = one.parts == ContactParts::WHOLE;
     contacts.points.push_back(contact);
   }
 
@@ -133,6 +334,9 @@ class WithMesh {
   struct Buffers {
     std::vector<NearPart> parts;
     std::vector<NearTriangle> near;
+    std::vector<Candidate> candidates;
+    std::vector<int> edges_of;    // planes of which edges are touched
+    Places places;
   };
   static Buffers &buffers()
   {
@@ -142,7 +346,7 @@ class WithMesh {
 
   const SuperellipsoidTouch touch;
   const Vector center;
-  const double reach;
+  const double reach, rounding;    // lengths; the latter that of coordinates
   const MeshShape &surface;
   const MeshFeatures &features;
   ShapeContacts &contacts;

@@ -1,7 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Superellipsoids and convex bodies with edges: of all parts whose normals are those of the common normal, the
-// one with the least overlap.
+// Superellipsoids and convex bodies with edges: of all faces, and of the edges and corners that have the common normal,
+// the one with the least overlap. That of a face is the way to be apart along its normal, wherever the shape is.
+//
+// That they touch is seen by a point of both. Either an edge of the body is in the shape; or all that a face cuts out
+// of the shape is in the interior of the face: then a straight line from the center of the shape to its lowest point,
+// as seen from the face, goes through it, unless the center is in the body or behind another face.
 
 #include "body/shape/frustum.h"
 #include "shape/superellipsoid/superellipsoid_contacts.h"
@@ -54,57 +58,82 @@ class WithConvex {
   {
   }
 
+  bool find(Least &least)
+  {
+    if (!look_at_faces(least)) return false;
+    look_at_edges(least);
+    look_at_vertices(least);
+    return is_touched || meets_a_face();
+  }
+
+ private:
   /// false: a face shows that they are apart.
   bool look_at_faces(Least &least) const
   {
     for (int f = 0; f < core.num_faces(); f++) {
-      const Vector n = pose.direction_in_space(core.normal(f));
-      const double offset = core.offset(f) + dot(n, pose.position) + radius;
-      const Found found = touch.plane(n, offset);
+      const Found found = below(f);
       if (!(found.overlap > 0.0)) return false;
-      if (is_over(f, found.place) && touch.is_proven(found)) least.take(found);
+      least.take(found);
     }
     return true;
   }
-  void look_at_edges(Least &least) const
+  void look_at_edges(Least &least)
   {
     for (int e = 0; e < core.num_edges(); e++) {
       const ConvexCore::Edge &edge = core.edge(e);
       const Vector from = core.vertex(edge.vertex[0]), along = core.vertex(edge.vertex[1]) - from;
       const Vector x = pose.point_in_space(from), way = pose.direction_in_space(along);
-      Found found;
-      if (is_far(x, way) || !touch.edge(x, way, radius, radius, found)) continue;
-      const Vector m = -pose.direction_in_body(found.normal);    // out of the body
+      if (is_far(x, way)) continue;
+      const SuperellipsoidTouch::AlongLine line = touch.edge(x, way, radius, radius);
+      is_touched |= line.touches;
+      if (!line.is_within) continue;
+      const Vector m = -pose.direction_in_body(line.deepest.normal);    // out of the body
       const double slack = at_border * length(along);
       if (dot(m, cross(core.normal(edge.face[0]), along)) <= slack &&
           dot(m, cross(along, core.normal(edge.face[1]))) <= slack)
-        least.take(found);
+        least.take(line.deepest);
     }
   }
-  void look_at_vertices(Least &least) const
+  void look_at_vertices(Least &least)
   {
     for (int v = 0; v < core.num_vertices(); v++) {
       const Vector x = pose.point_in_space(core.vertex(v));
       if (touch.is_beyond(x, radius)) continue;
       const Found found = touch.ball(x, radius);
-      if (found.overlap > 0.0 && is_of_vertex(v, -pose.direction_in_body(found.normal)))
-        least.take(found);
+      if (!(found.overlap > 0.0)) continue;
+      is_touched = true;
+      if (is_of_vertex(v, -pose.direction_in_body(found.normal))) least.take(found);
     }
   }
-
- private:
-  bool is_over(int f, const Vector &x) const
+  Found below(int f) const
   {
-    const Vector own = pose.point_in_body(x);
-    const int count = core.num_corners(f), *corner = core.corners(f);
-    Vector from = core.vertex(corner[count - 1]);
-    for (int k = 0; k < count; k++) {
-      const Vector to = core.vertex(corner[k]);
-      const double slack = at_border * length(to - from) * length(own - from);
-      if (dot(cross(core.normal(f), to - from), own - from) < -slack) return false;
-      from = to;
+    const Vector n = pose.direction_in_space(core.normal(f));
+    return touch.plane(n, core.offset(f) + dot(n, pose.position) + radius);
+  }
+  bool meets_a_face() const
+  {
+    const Vector from = pose.point_in_body(center);
+    for (int f = 0; f < core.num_faces(); f++) {
+      const Vector lowest = pose.point_in_body(below(f).place) - radius * core.normal(f);
+      if (meets_core(from, lowest - from)) return true;
     }
-    return true;
+    return false;
+  }
+  /// A straight line, cut off by all planes.
+  bool meets_core(const Vector &from, const Vector &way) const
+  {
+    double begin = 0.0, end = 1.0;
+    for (int f = 0; f < core.num_faces(); f++) {
+      const double height = dot(core.normal(f), from) - core.offset(f),
+                   rise = dot(core.normal(f), way);
+      if (rise < 0.0)
+        begin = std::max(begin, -height / rise);
+      else if (rise > 0.0)
+        end = std::min(end, -height / rise);
+      else if (height > 0.0)
+        return false;
+    }
+    return begin <= end;
   }
   bool is_of_vertex(int v, const Vector &m) const
   {
@@ -130,6 +159,7 @@ class WithConvex {
   const double radius;
   const Vector center;
   const double reach;
+  bool is_touched = false;    ///< an edge or corner is in the shape
 };
 
 /* ---- cylinders and cones from outside --------------------------------------------------------- */
@@ -142,25 +172,13 @@ class WithFrustum {
   {
   }
 
-  void look_at_side(Least &least) const
+  bool find(Least &least)
   {
-    Found found;
-    const Line line = side_line(body.rim(0), body.rim(1));
-    if (touch.edge(line.from, line.along, line.r0, line.r1, found) && touch.is_proven(found))
-      least.take(found);
-  }
-  void look_at_cap(int end, Least &least) const
-  {
-    const Frustum::Rim rim = body.rim(end);
-    if (rim.radius > 0.0) {
-      const Found found = touch.plane(rim.axis, dot(rim.axis, rim.center));
-      const Vector d = found.place - rim.center, across = d - dot(d, rim.axis) * rim.axis;
-      if (length(across) <= rim.radius && touch.is_proven(found)) least.take(found);
-      look_at_rim(end, rim, least);
-    } else {
-      const Found found = touch.ball(rim.center, 0.0);
-      if (found.overlap > 0.0 && dot(found.normal, rim.axis) < 0.0) least.take(found);
-    }
+    look_at_side(least);
+    if (body.is_infinite()) return is_touched;
+    for (const int end : {0, 1})
+      if (!look_at_cap(end, least)) return false;
+    return is_touched || is_in_body(center);
   }
 
  private:
@@ -184,14 +202,68 @@ class WithFrustum {
                  to = high.center - high.radius * slope * axis;
     return {from, to - from, low.radius * stretch, high.radius * stretch};
   }
-  void look_at_rim(int end, const Frustum::Rim &rim, Least &least) const
+  void look_at_side(Least &least)
+  {
+    const Line line = side_line(body.rim(0), body.rim(1));
+    const SuperellipsoidTouch::AlongLine side = touch.edge(line.from, line.along, line.r0, line.r1);
+    if (!side.is_within) return;
+    least.take(side.deepest);
+    // beyond the axis that is in the shape itself
+    is_touched |= body.is_infinite() || is_in_body(side.deepest.place) ||
+                  (touch.is_inside(side.of_ball) && is_in_body(side.of_ball));
+  }
+  /// false: it shows that they are apart.
+  bool look_at_cap(int end, Least &least)
+  {
+    const Frustum::Rim rim = body.rim(end);
+    const double offset = dot(rim.axis, rim.center), height = dot(rim.axis, center) - offset;
+    const Found found = touch.plane(rim.axis, offset);
+    if (!(found.overlap > 0.0)) return false;
+    least.take(found);
+    if (rim.radius > 0.0) {
+      // the straight line to the lowest point, or from below to the highest
+      const Found ahead = height >= 0.0 ? found : touch.plane(-rim.axis, -offset);
+      if (ahead.overlap > 0.0) {
+        const Vector x = touch.crossing(ahead, std::abs(height)) - rim.center;
+        is_touched |= dot(x, x) <= rim.radius * rim.radius;
+      }
+      look_at_rim(end, rim, least);
+    } else {
+      const Found tip = touch.ball(rim.center, 0.0);
+      if (!(tip.overlap > 0.0)) return true;
+      is_touched = true;
+      if (is_of_tip(end, rim, -tip.normal)) least.take(tip);
+    }
+    return true;
+  }
+  /// In the closed body.
+  bool is_in_body(const Vector &x) const
+  {
+    const Frustum::Rim low = body.rim(0), high = body.rim(1);
+    const Vector d = x - low.center;
+    const double s = dot(d, high.axis), size = dot(high.center - low.center, high.axis);
+    return s >= 0.0 && s <= size &&
+           length(d - s * high.axis) <= low.radius + s / size * (high.radius - low.radius);
+  }
+  /// All points of the body are behind a plane through the tip with this normal.
+  bool is_of_tip(int end, const Frustum::Rim &tip, const Vector &m) const
+  {
+    const Frustum::Rim other = body.rim(1 - end);
+    const double up = dot(m, tip.axis), size = dot(tip.center - other.center, tip.axis);
+    return other.radius * length(m - up * tip.axis) <=
+           up * size + at_border * (other.radius + size);
+  }
+  void look_at_rim(int end, const Frustum::Rim &rim, Least &least)
   {
     const Vector d = center - rim.center;
     const double up = dot(d, rim.axis), away = length(d - up * rim.axis) - rim.radius;
     if (up * up + away * away >= reach * reach) return;
-    Found found;
-    if (!touch.circle({rim.center, rim.side, cross(rim.axis, rim.side), rim.radius}, found)) return;
+    const SuperellipsoidTouch::AlongLine line =
+        touch.circle({rim.center, rim.side, cross(rim.axis, rim.side), rim.radius});
+    is_touched |= line.touches;
+    if (!line.is_within) return;
     // the normal must be between that of the cap and that of the side
+    const Found &found = line.deepest;
     const Vector m = -found.normal;
     Vector out = found.other() - rim.center;
     out = out - dot(out, rim.axis) * rim.axis;
@@ -205,6 +277,7 @@ class WithFrustum {
   const Frustum &body;
   const Vector center;
   const double reach;
+  bool is_touched = false;    ///< a point of both is known
 };
 
 }    // namespace
@@ -213,11 +286,8 @@ bool superellipsoid_and_convex(const PlacedSuperellipsoid &a, const Placed<Conve
                                const CollisionRequest & /*request*/, ShapeContacts &contacts)
 {
   contacts.clear();
-  const WithConvex with(a, b);
   Least least;
-  if (!with.look_at_faces(least)) return false;
-  with.look_at_edges(least);
-  with.look_at_vertices(least);
+  if (!WithConvex(a, b).find(least)) return false;
   return least.finish(1.0 / b.geometry.contact_radius(), contacts);
 }
 
@@ -227,12 +297,8 @@ bool superellipsoid_and_round(const PlacedSuperellipsoid &a, const Placed<RoundS
   contacts.clear();
   const Frustum &body = *b.geometry.body;
   if (body.distance_bound(a.pose.position) >= a.geometry.bounding_radius()) return false;
-  const WithFrustum with(a, body);
   Least least;
-  with.look_at_side(least);
-  if (!body.is_infinite())
-    for (const int end : {0, 1}) with.look_at_cap(end, least);
-  return least.finish(0.0, contacts);
+  return WithFrustum(a, body).find(least) && least.finish(0.0, contacts);
 }
 
 }    // namespace Talus

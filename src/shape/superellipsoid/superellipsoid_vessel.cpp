@@ -1,119 +1,271 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Superellipsoids inside of a body. The distance of a wall that is flat or curved inward is a concave function of
-// the place: from any point of the shape the way to that which is outermost along the direction of the wall leads
-// nearer to it, and ends where the normals of both are opposite.
+// Superellipsoids inside of a body. How far a point is behind a wall that is flat or curved inward is a convex function
+// of the point, so that from any point of the shape the way to that which is outermost along the direction of the wall
+// leads outward. It ends where the normals of both are the same and the shape is at least as curved as the wall: in a
+// place that is touched, of which there may be several if the shape is flatter than the wall elsewhere. Near by, the
+// steps are those of Newton's method.
+//
+// Shapes are flattest at the ends of their axes, and symmetric; so that there is one place at most in each octant of a
+// shape, which is looked for in those that reach behind the wall: a convex function is largest at a corner of the box
+// around the octant.
 
 #include "body/shape/large_body_shape.h"
 #include "shape/superellipsoid/superellipsoid_contacts.h"
 #include "shape/superellipsoid/touch.h"
 
 #include <algorithm>
+#include <array>
 
 namespace Talus {
 namespace {
 
 using Vector = Vector3<double>;
-using Found = SuperellipsoidTouch::Found;
 
-class Walls {
+/// Where a wall is, as seen from a point: the unit vector toward it, and how far the point is behind it.
+struct Outward {
+  Vector direction;
+  double behind;
+};
+
+/// One of the walls of a body.
+class Wall {
  public:
-  Walls(const PlacedSuperellipsoid &placed, const LargeBodyShape &vessel) :
-      a(placed), body(vessel), touch(placed.geometry, placed.pose),
-      reach(4.0 * placed.geometry.bounding_radius())
+  Wall(const LargeBodyShape &vessel, int wall_part, double far_enough) :
+      body(vessel), part(wall_part), reach(far_enough)
   {
-    const Superellipsoid &shape = a.geometry;
-    const Vector half = shape.half_axes();
-    for (const double side : {1.0, -1.0}) {
-      pole[side > 0.0 ? 0 : 1] = a.pose.point_in_space({side * half.x, 0.0, 0.0});
-      pole[side > 0.0 ? 2 : 3] = a.pose.point_in_space({0.0, side * half.y, 0.0});
-      pole[side > 0.0 ? 4 : 5] = a.pose.point_in_space({0.0, 0.0, side * half.z});
-    }
   }
-
-  void find(ShapeContacts &contacts)
-  {
-    SurfaceContact around[LargeBodyShape::max_contacts];
-    const int count = body.find_contacts(a.pose.position, reach, {nullptr, nullptr}, around);
-    for (int k = 0; k < count; k++)
-      if (reach - around[k].overlap < a.geometry.bounding_radius()) add_wall(around[k], contacts);
-  }
-
- private:
-  /// The wall `part` as seen from x: normal and distance.
-  bool look(const Vector &x, int part, Vector &normal, double &distance) const
+  /// false: it does not act there.
+  bool look(const Vector &x, Outward &seen) const
   {
     SurfaceContact found[LargeBodyShape::max_contacts];
     const int count = body.find_contacts(x, reach, {nullptr, nullptr}, found);
     for (int k = 0; k < count; k++)
       if (found[k].part == part) {
-        normal = found[k].normal;
-        distance = reach - found[k].overlap;
+        seen = {-found[k].normal, found[k].overlap - reach};
         return true;
       }
     return false;
   }
-  /// From the direction of the wall to where the shape is nearest to it.
-  bool approach(Vector normal, int part, Found &found) const
+
+ private:
+  const LargeBodyShape &body;
+  const int part;
+  const double reach;
+};
+
+/// A point of the shape, outermost along a direction, and the wall there.
+struct Place {
+  Vector normal, x;    ///< in the frame of the body
+  Superellipsoid::Point of_shape;
+  Outward wall;
+  Vector lacking() const { return wall.direction - normal; }
+};
+
+class Climb {
+ public:
+  Climb(const PlacedSuperellipsoid &placed, const Wall &touched) :
+      a(placed), wall(touched), size(placed.geometry.bounding_radius())
+  {
+  }
+
+  /// Outward from where the wall is in that direction. false: it does not act.
+  bool from(const Vector &direction, Place &place) const
   {
     constexpr int most_steps = 200;
-    constexpr double enough = 1.0e-15;
-    double distance = 0.0;
+    constexpr double enough = 4.0e-16;
+    if (!outermost(direction, place)) return false;
     for (int step = 0; step < most_steps; step++) {
-      const Vector before = normal;
-      found = touch.plane(normal, 0.0);
-      if (!look(found.place, part, normal, distance)) return false;
-      const Vector turned = normal - before;
-      if (dot(turned, turned) <= enough * enough) break;
+      const Vector lacking = place.lacking();
+      const double square = dot(lacking, lacking);
+      if (square <= enough * enough) break;
+      Place next;
+      Vector turned;
+      if (newton(place, turned) && outermost(turned, next) && is_better(next, place, square)) {
+        const Vector way = next.x - place.x;
+        place = next;
+        if (dot(way, way) <= 1.0e-24 * size * size) break;
+        continue;
+      }
+      if (!outermost(place.wall.direction, next)) return false;
+      const bool is_farther = next.wall.behind > place.wall.behind;
+      if (is_farther || dot(next.lacking(), next.lacking()) < square) place = next;
+      if (!is_farther) break;    // but for rounding it is there
     }
-    found.normal = -normal;
-    found.overlap = -distance;
-    found.middle = found.place + 0.5 * found.overlap * normal;
-    return found.overlap > 0.0;
+    return true;
   }
-  void add_wall(const SurfaceContact &from_center, ShapeContacts &contacts) const
+  /// The shape is more curved than the wall.
+  bool is_summit(const Place &place) const
   {
-    const int part = from_center.part;
-    Found found[7];
-    int count = 0, of_pole[7];
-    const auto add = [&](const Vector &normal, int k) {
-      if (!approach(normal, part, found[count])) return;
-      const double near_by = 1.0e-3 * a.geometry.bounding_radius();
-      for (int n = 0; n < count; n++)
-        if (length(found[n].place - found[count].place) < near_by) return;
-      of_pole[count++] = k;
-    };
-    bool is_curved = false;
-    for (int k = 0; k < 6; k++) {
-      Vector normal;
-      double distance;
-      if (!look(pole[k], part, normal, distance)) continue;
-      const Vector turned = normal - from_center.normal;
-      if (dot(turned, turned) < 1.0e-24) continue;
-      is_curved = true;
-      add(normal, k);
-    }
-    if (!is_curved || !count) add(from_center.normal, 0);
-    for (int n = 0; n < count; n++)
-      add_contact(found[n], part, count > 1 ? 1 + of_pole[n] : 0, contacts);
+    Vector turned;
+    return newton(place, turned);
   }
-  void add_contact(Found found, int part, int number, ShapeContacts &contacts) const
+
+ private:
+  bool outermost(const Vector &normal, Place &place) const
   {
-    const Superellipsoid &shape = a.geometry;
-    found.curvature =
-        shape.curvature_for_laws(shape.at_normal(a.pose.direction_in_body(found.normal)));
-    ShapeContact contact = shape_contact(found, 0.0, contact_name(ContactParts::WHOLE, number, 0));
-    contact.surface = static_cast<std::uint32_t>(part);
-    contact.part = part;
-    contacts.points.push_back(contact);
+    place.normal = normal;
+    place.of_shape = a.geometry.at_normal(a.pose.direction_in_body(normal));
+    place.x = a.pose.point_in_space(place.of_shape.place);
+    return wall.look(place.x, place.wall);
+  }
+  bool is_better(const Place &next, const Place &place, double square) const
+  {
+    const double gain = next.wall.behind - place.wall.behind, rounding = 1.0e-14 * size;
+    return gain > rounding ||
+           (gain > -rounding && dot(next.lacking(), next.lacking()) < 0.9 * square);
+  }
+  /* With curvatures K of the shape and W of the wall, dn = K dx, and both normals agree after (K - W) dx = lacking. */
+  bool newton(const Place &place, Vector &turned) const
+  {
+    const double part = 1.0e-6 * size;
+    const Vector &n = place.normal;
+    Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
+    s = (1.0 / length(s)) * s;
+    const Vector t = cross(n, s), lacking = place.lacking();
+    Outward along_s, along_t;
+    if (!wall.look(place.x + part * s, along_s) || !wall.look(place.x + part * t, along_t))
+      return false;
+    const Vector by_s = (1.0 / part) * (along_s.direction - place.wall.direction),
+                 by_t = (1.0 / part) * (along_t.direction - place.wall.direction);
+    const Vector own_s = a.pose.direction_in_body(s), own_t = a.pose.direction_in_body(t);
+    const double ss = place.of_shape.curvature(own_s, own_s),
+                 st = place.of_shape.curvature(own_s, own_t),
+                 tt = place.of_shape.curvature(own_t, own_t);
+    const double mixed = st - 0.5 * (dot(s, by_t) + dot(t, by_s)), in_s = ss - dot(s, by_s),
+                 in_t = tt - dot(t, by_t), determinant = in_s * in_t - mixed * mixed;
+    if (!(in_s > 0.0 && determinant > 0.0)) return false;
+    const double gs = dot(s, lacking), gt = dot(t, lacking);
+    const double ds = (in_t * gs - mixed * gt) / determinant,
+                 dt = (in_s * gt - mixed * gs) / determinant;
+    turned = n + (ss * ds + st * dt) * s + (st * ds + tt * dt) * t;
+    turned = (1.0 / length(turned)) * turned;
+    return true;
   }
 
   const PlacedSuperellipsoid &a;
-  const LargeBodyShape &body;
-  const SuperellipsoidTouch touch;
-  const double reach;
-  Vector pole[6];
+  const Wall &wall;
+  const double size;
 };
+
+/// The places of one wall.
+class Places {
+ public:
+  Places(const PlacedSuperellipsoid &placed, const Wall &touched) :
+      a(placed), half(placed.geometry.half_axes()), wall(touched), climb(placed, touched)
+  {
+  }
+
+  void find(const Vector &from_center)
+  {
+    Place first;
+    if (!climb.from(from_center, first)) return;
+    if (is_flat(from_center)) return add(first);
+    if (climb.is_summit(first)) {
+      add(first);
+      leave_out_octants_at(first.of_shape.place);
+    }
+    const Vector corner = a.geometry.on_ray(half).place;
+    for (int octant = 0; octant < 8; octant++) {
+      const Vector to = signs(octant);
+      Outward seen;
+      Place place;
+      if (left_out[octant] || !reaches_behind(to) ||
+          !wall.look(a.pose.point_in_space({to.x * corner.x, to.y * corner.y, to.z * corner.z}),
+                     seen))
+        continue;
+      if (climb.from(seen.direction, place)) add(place);
+    }
+    if (!count) add(first);
+  }
+  template <class Visit> void each(Visit visit) const
+  {
+    for (int k = 0; k < count; k++) visit(found[k]);
+  }
+
+ private:
+  static Vector signs(int octant)
+  {
+    return {octant & 1 ? -1.0 : 1.0, octant & 2 ? -1.0 : 1.0, octant & 4 ? -1.0 : 1.0};
+  }
+  void add(const Place &place)
+  {
+    const double near_by = 1.0e-3 * a.geometry.bounding_radius();
+    if (!(place.wall.behind > 0.0)) return;
+    for (int k = 0; k < count; k++)
+      if (length(found[k].x - place.x) < near_by) return;
+    found[count++] = place;
+  }
+  /// It has one normal.
+  bool is_flat(const Vector &normal) const
+  {
+    for (const double side : {1.0, -1.0})
+      for (const Vector &end : {Vector{side * half.x, 0.0, 0.0}, Vector{0.0, side * half.y, 0.0},
+                                Vector{0.0, 0.0, side * half.z}}) {
+        Outward seen;
+        if (!wall.look(a.pose.point_in_space(end), seen)) continue;
+        const Vector turned = seen.direction - normal;
+        if (dot(turned, turned) >= 1.0e-24) return false;
+      }
+    return true;
+  }
+  void leave_out_octants_at(const Vector &x)
+  {
+    constexpr double at_border = 1.0e-3;
+    for (int octant = 0; octant < 8; octant++) {
+      const Vector to = signs(octant);
+      left_out[octant] = to.x * x.x >= -at_border * half.x && to.y * x.y >= -at_border * half.y &&
+                         to.z * x.z >= -at_border * half.z;
+    }
+  }
+  /// Does a corner of the box around the octant? Beginning with that farthest from the center.
+  bool reaches_behind(const Vector &to)
+  {
+    for (int corner = 7; corner >= 0; corner--) {
+      const int i = corner & 1 ? static_cast<int>(to.x) : 0,
+                j = corner & 2 ? static_cast<int>(to.y) : 0,
+                k = corner & 4 ? static_cast<int>(to.z) : 0;
+      signed char &behind = is_behind[9 * (i + 1) + 3 * (j + 1) + k + 1];
+      if (behind < 0) {
+        Outward seen;
+        behind = wall.look(a.pose.point_in_space({i * half.x, j * half.y, k * half.z}), seen) &&
+                 seen.behind > 0.0;
+      }
+      if (behind) return true;
+    }
+    return false;
+  }
+
+  const PlacedSuperellipsoid &a;
+  const Vector half;
+  const Wall &wall;
+  const Climb climb;
+  Place found[9];
+  int count = 0;
+  bool left_out[8] = {};
+  std::array<signed char, 27> is_behind = [] {    // of a grid of points; -1: not known yet
+    std::array<signed char, 27> all{};
+    all.fill(-1);
+    return all;
+  }();
+};
+
+void add_contact(const PlacedSuperellipsoid &a, const Place &place, int part,
+                 ShapeContacts &contacts)
+{
+  SuperellipsoidTouch::Found found;
+  found.normal = place.wall.direction;
+  found.place = place.x;
+  found.overlap = place.wall.behind;
+  found.middle = place.x - 0.5 * found.overlap * found.normal;
+  found.curvature = a.geometry.curvature_for_laws(place.of_shape);
+  const Vector way = place.x - a.pose.position;
+  ShapeContact contact = shape_contact(found, 0.0, place_name((1.0 / length(way)) * way));
+  contact.is_named_by_place = true;
+  contact.surface = static_cast<std::uint32_t>(part);
+  contact.part = part;
+  contacts.points.push_back(contact);
+}
 
 }    // namespace
 
@@ -121,9 +273,18 @@ bool superellipsoid_and_vessel(const PlacedSuperellipsoid &a, const Placed<Vesse
                                const CollisionRequest & /*request*/, ShapeContacts &contacts)
 {
   contacts.clear();
-  if (b.geometry.body->distance_bound(a.pose.position) >= a.geometry.bounding_radius())
-    return false;
-  Walls(a, *b.geometry.body).find(contacts);
+  const LargeBodyShape &body = *b.geometry.body;
+  const double size = a.geometry.bounding_radius(), reach = 4.0 * size;
+  if (body.distance_bound(a.pose.position) >= size) return false;
+  SurfaceContact around[LargeBodyShape::max_contacts];
+  const int count = body.find_contacts(a.pose.position, reach, {nullptr, nullptr}, around);
+  for (int k = 0; k < count; k++) {
+    if (reach - around[k].overlap >= size) continue;
+    const Wall wall(body, around[k].part, reach);
+    Places places(a, wall);
+    places.find(-around[k].normal);
+    places.each([&](const Place &place) { add_contact(a, place, around[k].part, contacts); });
+  }
   return !contacts.points.empty();
 }
 

@@ -105,30 +105,38 @@ bool SuperellipsoidTouch::is_beyond(const Vector &from, const Vector &along, dou
   return shape.gauge(own + t * way) >= 1.0;
 }
 
-bool SuperellipsoidTouch::edge(const Vector &from, const Vector &along, double r0, double r1,
-                               Found &found) const
+SuperellipsoidTouch::AlongLine SuperellipsoidTouch::edge(const Vector &from, const Vector &along,
+                                                         double r0, double r1, double slack) const
 {
-  if (is_beyond(from, along, std::max(r0, r1))) return false;
+  AlongLine line;
+  if (is_beyond(from, along, std::max(r0, r1))) return line;
   const auto look = [&](double t) {
-    found = ball(from + t * along, r0 + t * (r1 - r0));
-    return dot(found.normal, along) - (r1 - r0);    // d(distance)/dt
+    line.of_ball = from + t * along;
+    line.deepest = ball(line.of_ball, r0 + t * (r1 - r0));
+    line.touches |= line.deepest.overlap > 0.0;
+    return dot(line.deepest.normal, along) - (r1 - r0);    // d(distance)/dt
   };
-  const double at_low = look(0.0), low = -found.overlap;
-  if (at_low == 0.0) return found.overlap > 0.0;
-  if (!(at_low < 0.0)) return false;
-  const double at_high = look(1.0), high = -found.overlap;
-  if (at_high == 0.0) return found.overlap > 0.0;
+  const auto within = [&] {
+    line.is_within = line.deepest.overlap > 0.0;
+    return line;
+  };
+  const double flat = slack * length(along);
+  const double at_low = look(0.0), low = -line.deepest.overlap;
+  if (at_low >= 0.0) return at_low <= flat ? within() : line;
+  const double at_high = look(1.0), high = -line.deepest.overlap;
+  if (at_high <= 0.0) return at_high >= -flat ? within() : line;
   // the distance is above both tangents
   const double crossing = std::clamp((low - high + at_high) / (at_high - at_low), 0.0, 1.0);
-  if (!(at_high > 0.0) || low + crossing * at_low >= 0.0) return false;
+  if (low + crossing * at_low >= 0.0) return line;
   look(rising_zero(0.0, 1.0, at_low, at_high, look));
-  return found.overlap > 0.0;
+  return within();
 }
 
-bool SuperellipsoidTouch::circle(const Circle &rim, Found &found) const
+SuperellipsoidTouch::AlongLine SuperellipsoidTouch::circle(const Circle &rim) const
 {
   constexpr int samples = 16;
   constexpr double turn = 6.28318530717958647693;
+  AlongLine line;
   const Vector d = at.position - rim.center;
   double first = std::atan2(dot(d, rim.other), dot(d, rim.side));
   const auto gauge = [&](double angle) { return shape.gauge(at.point_in_body(rim.at(angle))); };
@@ -141,12 +149,17 @@ bool SuperellipsoidTouch::circle(const Circle &rim, Found &found) const
     first = angle;
   }
   const auto look = [&](double angle) {
-    found = ball(rim.at(angle), 0.0);
-    return dot(found.normal, rim.at(angle + 0.25 * turn) - rim.center);
+    line.deepest = ball(rim.at(angle), 0.0);
+    line.touches |= line.deepest.overlap > 0.0;
+    return dot(line.deepest.normal, rim.at(angle + 0.25 * turn) - rim.center);
+  };
+  const auto within = [&] {
+    line.is_within = line.deepest.overlap > 0.0;
+    return line;
   };
   // away from `first` until the slope changes
   const double begin = look(first);
-  if (begin == 0.0) return found.overlap > 0.0;
+  if (begin == 0.0) return within();
   const double step =
       std::min(0.2, shape.bounding_radius() / rim.radius) * (begin < 0.0 ? 1.0 : -1.0);
   double last = first, slope_last = begin;
@@ -156,12 +169,12 @@ bool SuperellipsoidTouch::circle(const Circle &rim, Found &found) const
       const bool up = step > 0.0;
       look(rising_zero(up ? last : next, up ? next : last, up ? slope_last : slope,
                        up ? slope : slope_last, look));
-      return found.overlap > 0.0;
+      return within();
     }
     last = next;
     slope_last = slope;
   }
-  return false;
+  return line;
 }
 
 ShapeContact shape_contact(const Found &found, double other_curvature, std::uint32_t name)

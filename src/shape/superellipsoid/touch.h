@@ -46,18 +46,28 @@ class SuperellipsoidTouch {
   Found plane(const Vector &normal, double offset) const;
   /// With a ball, or a point.
   Found ball(const Vector &center, double radius) const;
-  /// With the ball that is deepest among those along a straight line, whose radii change from r0 to r1; false
-  /// if it would be beyond the ends, or none touches.
-  bool edge(const Vector &from, const Vector &along, double r0, double r1, Found &found) const;
+  /// With the ball that is deepest among those along a line or circle.
+  struct AlongLine {
+    bool touches = false;      ///< one of those that were looked at
+    bool is_within = false;    ///< the deepest is not at an end, and touches
+    Found deepest{};           ///< if it is within
+    Vector of_ball{};          ///< the center of that ball
+  };
+  /// Of balls along a straight line whose radii change from r0 to r1. An end counts as within if the distance still
+  /// falls there by this slope (over the length of the line) at most.
+  AlongLine edge(const Vector &from, const Vector &along, double r0, double r1,
+                 double slack = 0.0) const;
   /// The same with the points of a circle.
-  bool circle(const Circle &rim, Found &found) const;
+  AlongLine circle(const Circle &rim) const;
 
-  /// The point on the other surface is inside the shape, which proves that they touch if it belongs to the body: else
-  /// the shape is beside that, or behind the part of it that was looked at.
-  bool is_proven(const Found &found) const
+  /// Of a plane that cuts the shape between its center and its lowest point: where the straight line between both
+  /// meets it, which is a point of the shape.
+  Vector crossing(const Found &lowest, double height_of_center) const
   {
-    return shape.gauge(at.point_in_body(found.other())) < 1.0;
+    return at.position +
+           height_of_center / (height_of_center + lowest.overlap) * (lowest.place - at.position);
   }
+  bool is_inside(const Vector &x) const { return shape.gauge(at.point_in_body(x)) < 1.0; }
 
   /// No point of the box around the shape is as near as this to x.
   bool is_beyond(const Vector &x, double distance) const;
