@@ -2,8 +2,10 @@
 
 #include "material/contact_spec.h"
 
-#include <cstdio>
+#include "base/number_text.h"
+
 #include <initializer_list>
+#include <string>
 
 namespace Talus {
 
@@ -28,9 +30,8 @@ std::string ContactSides::describe(const std::string &note) const
     const Law &one = law()[stage];
     for (int n = 0; n < one.num_coefficients; n++) {
       if (one.coefficients[n].shown != shown) continue;
-      char number[32];
-      snprintf(number, sizeof number, " %.6g", law().coefficients(stage, row)[n]);
-      text += std::string(" ") + one.coefficients[n].name + number;
+      text += std::string(" ") + one.coefficients[n].name + " " +
+              number_text(law().coefficients(stage, row)[n]);
     }
   };
   const auto always = [&](std::initializer_list<Stage> stages) {

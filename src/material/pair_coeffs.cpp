@@ -2,15 +2,10 @@
 
 #include "material/pair_coeffs.h"
 
-#include "base/number_text.h"
 #include "base/simd.h"
 #include "laws/second_order_laws.h"
 
 #include <algorithm>
-<<<<<<< HEAD
-=======
-#include <initializer_list>
->>>>>>> files
 
 namespace Talus {
 namespace {
@@ -120,33 +115,8 @@ LawTable PairCoeffs::table(int order) const
 
 std::string PairCoeffs::describe_pair(int i, int j) const
 {
-<<<<<<< HEAD
   return "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
          sides(i, j).describe(note_on(i, j));
-=======
-  const ContactLaw &pair_law = law(i, j);
-  const ContactCoefficients row = coefficients(i, j);
-  std::string text = "types " + std::to_string(i) + " " + std::to_string(j) + ": " +
-                     describe_law(pair_law) + (is_set(i, j) ? ";" : "; mixed;");
-  const auto add = [&](Stage stage, Shown shown) {
-    const Law &one = pair_law[stage];
-    for (int n = 0; n < one.num_coefficients; n++) {
-      if (one.coefficients[n].shown != shown) continue;
-      text += std::string(" ") + one.coefficients[n].name + " " +
-              number_text(pair_law.coefficients(stage, row)[n]);
-    }
-  };
-  const auto always = [&](std::initializer_list<Stage> stages) {
-    for (Stage stage : stages) add(stage, Shown::ALWAYS);
-  };
-  always({Stage::NORMAL, Stage::DAMPING});
-  if (pair_law.tangential().reads_stiffness)
-    for (Stage stage : {Stage::NORMAL, Stage::DAMPING}) add(stage, Shown::WITH_SPRING);
-  always({Stage::TANGENTIAL, Stage::ROLLING, Stage::TWISTING, Stage::COHESION, Stage::HEAT});
-  const ContactSpec &a = is_set(i, j) ? spec(i, j) : spec(i, i);
-  const ContactSpec &b = is_set(i, j) ? a : spec(j, j);
-  return text + (Mixing{a, b, mix}.limits_damping() ? " limit_damping" : "");
->>>>>>> files
 }
 
 std::string PairCoeffs::describe(const LawTable &table) const
