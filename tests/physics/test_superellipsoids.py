@@ -217,7 +217,7 @@ class Floors(SuperellipsoidCase):
         body_meshes.write_stl(self.path("floor.stl"), [[corners[k] for k in tri] for tri in ((0, 1, 2), (0, 2, 3))])
 
     def test_at_rest_on_an_incline(self):
-        """15 degrees, friction .5: it rocks and stays, with the contact in all steps as on the plane."""
+        """15 degrees, friction .5: it rocks and stays, with the same contact in the same steps as on the plane."""
         self.write_floor()
         found = {}
         for name, floor in self.FLOORS.items():
@@ -233,7 +233,7 @@ fix lost all ave/time 1 5000 5000 v_lost""", 5000, dt=4e-4, law=law, columns="f_
             print(name, "moved by", state[0] - 0.7, "without a contact", state[-1])
             for one, other in zip(state, found["plane"]):
                 self.assertAlmostEqual(one, other, delta=1e-10, msg=name)
-        self.assertLess(found["plane"][-1], 0.02)
+        self.assertLess(found["plane"][-1], 0.1)    # while it rocks
         self.assertLess(found["plane"][0] - 0.7, 0.01)
 
     def test_one_force_at_any_depth(self):
@@ -243,7 +243,7 @@ fix lost all ave/time 1 5000 5000 v_lost""", 5000, dt=4e-4, law=law, columns="f_
                                 "cone": "cone 0 0 -2 0 0 1 5 4 4 outside"}
         for spec, axis, height in (("ellipsoid .5 .025 .025", (0, 1, 0), math.sqrt((0.25 + 0.025**2) / 2)),
                                    ("ellipsoid .5 .5 .05", (1, 0, 0), math.sqrt((0.25 + 0.05**2) / 2))):
-            for depth in 1e-11, 1e-5, 0.03, 0.2, 0.33:
+            for depth in 1e-11, 0.03, 0.33:
                 for name, floor in floors.items():
                     row, = self.simulate([Sphere((0.31, 0.17, height - depth))], f"""
 fix s all shape/gran type 1 {spec} density 1 orient {quat(axis, 45)}
