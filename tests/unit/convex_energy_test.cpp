@@ -293,8 +293,9 @@ Comparison compared(const Wall &wall, const ConvexShape &shape)
 
 }    // namespace
 
-/* One point, or points of which one has nearly all of the force, have no arm for the torque about its
-   axis that is due where a face is deep in an edge or corner of a box: in one place of a hundred. */
+/* Points that share the force of two sharp bodies lean by a tenth at most, see face_contacts.cpp: the
+   torque about its axis is not all there where a face is deep in an edge or corner of a box, in one
+   place of fifty. */
 
 TEST(ConvexEnergy, ForcesAreItsGradient)
 {
@@ -310,12 +311,12 @@ TEST(ConvexEnergy, ForcesAreItsGradient)
         sum->wrong += here.wrong;
       }
       EXPECT_GT(here.places, number_of_poses() / 20) << wall.name << ", " << kind.name;
-      EXPECT_LT(here.worst, is_box ? 2e-2 : tolerance) << wall.name << ", " << kind.name;
+      EXPECT_LT(here.worst, is_box ? 3e-2 : tolerance) << wall.name << ", " << kind.name;
       EXPECT_LE(here.kinks, 2 + here.places / 20) << wall.name << ", " << kind.name;
     }
   EXPECT_LT(all.kinks, all.places / 50);
   EXPECT_EQ(all.wrong, of_box.wrong);
-  EXPECT_LE(of_box.wrong, of_box.places / 50);
+  EXPECT_LE(of_box.wrong, of_box.places / 20);
 }
 
 /* An edge of a brick across the rim of a cap: the forces of one contact whose energy is k o^2/2. */

@@ -175,17 +175,14 @@ void merge(std::vector<ShapeContact> &contacts, std::size_t from)
   contacts.resize(kept);
 }
 
-// Points that share a force lean by less than this in the mean (tangent of the angle).
-constexpr double most_lean = 0.5;
-
 /* A force along an axis has no torque about it, and points that share it have if they lean: those
-   that are r away from the middle by tilt (normal x r). One that is far
-   from the middle, and leans more than others, has little of the force. */
+   that are r away from the middle by tilt (normal x r). */
 
 void lean(std::vector<ShapeContact> &contacts, std::size_t from, double pitch, double reach)
 {
+  constexpr double most = 0.1;
   const Vector n = contacts[from].normal;
-  double all = 0.0, square = 0.0;
+  double all = 0.0, square = 0.0, farthest = 0.0;
   Vector middle{0.0, 0.0, 0.0};
   for (std::size_t k = from; k < contacts.size(); k++) {
     all += contacts[k].weight;
@@ -195,9 +192,11 @@ void lean(std::vector<ShapeContact> &contacts, std::size_t from, double pitch, d
   for (std::size_t k = from; k < contacts.size(); k++) {
     const Vector r = cross(n, contacts[k].position - middle);
     square += contacts[k].weight / all * dot(r, r);
+    farthest = std::max(farthest, dot(r, r));
   }
   if (!(square > reach * reach)) return;
-  const double most = most_lean / std::sqrt(square), tilt = std::clamp(pitch / square, -most, most);
+  const double tilt =
+      std::clamp(pitch / square, -most / std::sqrt(farthest), most / std::sqrt(farthest));
   for (std::size_t k = from; k < contacts.size(); k++) {
     const Vector leaning = n + tilt * cross(n, contacts[k].position - middle);
     const double size = length(leaning);
@@ -277,19 +276,12 @@ void add_face_contacts(const CorePair &pair, Rounding radius, const LeastDepth &
   middle = (1.0 / kept) * middle;
   z /= kept;
   // an axis beside the polygon, where other faces touch as well, draws the corners near
-  double spread = 0.0, mean_square = 0.0;
-  for (std::size_t k = 0; k < polygon.size(); k++) {
-    if (share[k] < least_weight) continue;
-    const double square = square_of(polygon[k].place - middle);
-    spread = std::max(spread, square);
-    mean_square += share[k] / kept * square;
-  }
+  double spread = 0.0;
+  for (std::size_t k = 0; k < polygon.size(); k++)
+    if (share[k] >= least_weight) spread = std::max(spread, square_of(polygon[k].place - middle));
   const Flat axis = axis_at(z);
-  const double beside = square_of(axis - middle);
-  double scale = beside < spread ? 1.0 - std::sqrt(beside / spread) : 0.0;
-  // but not nearer than the torque about it wants, see lean()
-  if (2.0 * std::fabs(pitch) > scale * most_lean * std::sqrt(mean_square))
-    scale = std::min(1.0, 2.0 * std::fabs(pitch) / (most_lean * std::sqrt(mean_square)));
+  const double beside = square_of(axis - middle),
+               scale = beside < spread ? 1.0 - std::sqrt(beside / spread) : 0.0;
   for (std::size_t k = 0; k < polygon.size(); k++) {
     if (share[k] < least_weight) continue;
     const Flat p = polygon[k].place;
