@@ -1,0 +1,113 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=120
+"""Rows of the page on output tell what their words say: two grains at rest on each other and on a floor, and one that flies
+past and turns, of which all numbers are known."""
+
+import math
+import os
+import re
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+import test_conversion_pages as pages
+from talus_testing import SceneCase, Sphere, read_local, thermo, write_sphere_data
+
+STIFFNESS, GRAVITY, RADIUS = 1e4, 10.0, 0.5
+MASS = math.pi / 6
+WEIGHT = MASS * GRAVITY
+DEEP, SHALLOW = 2 * WEIGHT / STIFFNESS, WEIGHT / STIFFNESS    # overlaps with the floor and with each other
+LOW = RADIUS - DEEP
+DISTANCE = 2 * RADIUS - SHALLOW
+SPEED, SPIN, HEIGHT = 1.5, 2.0, 4.0
+VOLUME = 8.0 * 6.0 * 10.0
+STRESS = WEIGHT * DISTANCE / VOLUME, 2 * WEIGHT * RADIUS / VOLUME    # zz, of both grains; of one and the floor
+FLOW = MASS * SPEED**2 / VOLUME
+ELASTIC = 0.5 * STIFFNESS * (DEEP**2 + SHALLOW**2)
+
+SCENE = f"""
+variable law string "hooke {STIFFNESS} 20"
+units lj
+boundary f f f
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+read_data grains
+neighbor 0.2 bin
+timestep 1e-6
+pair_style gran/penalty
+pair_coeff * * ${{law}}
+group resting id 1 2
+fix move all nve/sphere/symplectic
+fix fall resting gravity/talus {GRAVITY} vector 0 0 -1
+fix floor all large/body plane 0 0 0 0 0 1 contact ${{law}}
+"""
+END = "thermo_modify norm no format float %.15g\nrun 0\n"
+
+# by the first words of a row: what its columns are
+KNOWN = {
+    "kinetic energy of spheres": {"KinEng": MASS * SPEED**2 / 2, "c_spin": 0.2 * MASS * RADIUS**2 * SPIN**2},
+    "number of contacts between grains": {"c_pair[1]": 1, "v_mean": 2 / 3},
+    "largest overlap between grains": {"c_deepest": SHALLOW / RADIUS},
+    "force on a body, torque": {"f_floor[1]": 0, "f_floor[3]": -2 * WEIGHT, "f_floor[6]": 0},
+    "where a body is": {"f_floor[7]": 0, "f_floor[9]": 0, "f_floor[16]": 0},
+    "elastic and dissipated energy": {"c_energy[2]": 2, "c_energy[3]": DEEP / RADIUS, "c_energy[4]": ELASTIC, "c_energy[5]": 0},
+    "pressure and stress of the contacts between grains |": {"c_p": STRESS[0] / 3, "c_p[1]": 0, "c_p[3]": STRESS[0]},
+    "the same with the contacts with a body": {"c_p": sum(STRESS) / 3, "c_p[1]": 0, "c_p[3]": sum(STRESS)},
+    "pressure and stress of the contacts between grains and of velocities": {
+        "Press": (STRESS[0] + FLOW) / 3, "Pxx": FLOW, "Pyy": 0, "Pzz": STRESS[0]},
+    "mass of the grains in the box": {"c_passed": MASS},
+    "height of the center of mass": {"c_center[3]": (2 * LOW + DISTANCE + HEIGHT) / 3, "c_fastest": SPEED},
+    "mean coordination number": {"c_coordination": 1},
+    "fabric tensors": {"c_fabric": 1},
+}
+
+
+class Rows(SceneCase):
+
+    def setUp(self):
+        write_sphere_data(self.path("grains"), ((0, 8), (0, 6), (-1, 9)),
+                          [Sphere((2, 3, LOW)), Sphere((2, 3, LOW + DISTANCE)), Sphere((5, 3, HEIGHT), v=(SPEED, 0, 0), omega=(0, 0, SPIN))])
+
+    @staticmethod
+    def lines_of(words):
+        found = [lines for label, lines in pages.rows(pages.page("output.md"), "what you want")
+                 if (label + " |").startswith(words)]
+        return pages.commands(found[0]) if len(found) == 1 else found
+
+    def run_row(self, words, more=""):
+        lines = self.lines_of(words)
+        if "c_fabric[*]" in lines[-1]:    # its scalar is the number of contacts
+            lines[-1] += " c_fabric"
+        return self.run_lammps("\n".join([SCENE, *lines, more, END])).log
+
+    def test_numbers_in_the_log(self):
+        for words, known in KNOWN.items():
+            with self.subTest(words):
+                row = thermo(self.run_row(words))[0]
+                scale = max(map(abs, known.values()))
+                for column, value in known.items():
+                    self.assertAlmostEqual(row[column], value, delta=1e-9 * scale, msg=column)
+
+    def test_stress_of_each_grain(self):
+        """Half of the contact of two grains for each, all of that with the floor; tension is positive."""
+        self.run_row("stress of each grain")
+        with open(self.path("grains.0.txt")) as file:
+            rows = [list(map(float, line.split())) for line in file if re.match(r"[123] ", line)]
+        zz = {row[0]: row[3] for row in rows}
+        between = WEIGHT * DISTANCE / 2
+        for tag, value in (1, between + 2 * WEIGHT * RADIUS), (2, between), (3, 0.0):
+            self.assertAlmostEqual(zz[tag], -value, delta=1e-5 * WEIGHT)
+
+    def test_contacts(self):
+        for words in "all contacts, those with bodies", "force chains", "what contacts remember":
+            with self.subTest(words):
+                self.run_row(words)
+                name = "chains.0.txt" if words == "force chains" else "contacts.0.txt"
+                self.assertEqual(len(read_local(self.path(name))[0].rows), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
