@@ -161,13 +161,16 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   double energy();
   /// It is.
   bool accounts() const;
-  /// visit(contact) for those of the last step on this rank, once its forces have been computed.
-  void for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit);
+  /// visit(contact) for those of the last step on this rank, see SystemFix::for_each_contact().
+  void for_each_contact(const ComputedContacts::VisitContact &visit) const
+  {
+    for_outputs.for_each(visit);
+  }
   /// On this rank, now and when particles were listed again between two rebuilds.
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
   VtkPolyData picture() const { return make_picture(); }
-  double memory_usage() const { return contacts.memory_usage(); }
+  double memory_usage() const { return contacts.memory_usage() + for_outputs.memory_usage(); }
 
   /// sqrt(m/k) (time) of a particle of this type, mass and radius against the body, with the
   /// stiffness at this overlap; 0 without stiffness.
@@ -180,7 +183,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
  private:
   ParticleState view() const;
-  BodyStep step_of(bool advance);
+  BodyStep begin_forces(bool advance);
   const int *mask_of_spheres();
   Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
@@ -213,6 +216,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   bool with_history = false;
   int order_of_history = 0;    ///< of the integrator, by whose laws it is; 0: not known
   BodyContacts contacts;
+  ComputedContacts for_outputs;
   std::vector<int> spheres;     ///< see mask_of_spheres()
   BodyFindings seen_between;    ///< before particles were listed again within a step
   LAMMPS_NS::EffectiveMasses masses;
