@@ -6,6 +6,7 @@
 #include "system/granular_system.h"
 #include "system/system_run_style.h"
 #include "system/system_shapes.h"
+#include "system/restart_data.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -73,6 +74,7 @@ int FixContactStore::setmask()
 
 void FixContactStore::init()
 {
+  Talus::require_intact_particles(lmp);
   // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;
