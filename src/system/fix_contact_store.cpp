@@ -74,7 +74,6 @@ int FixContactStore::setmask()
 
 void FixContactStore::init()
 {
-  Talus::require_intact_particles(lmp);
   // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;
@@ -84,6 +83,7 @@ void FixContactStore::init()
                  "pair_style command up",
                  Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
   }
+  Talus::require_intact_particles(lmp);
   next_reneighbor = next_refresh(update->ntimestep);
   keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
