@@ -63,6 +63,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   {
     contacts.history.put_aside();
     Stock::init();
+    require_intact_particles(this->lmp);
     is_listed = false;
     stock_reason = find_reason_for_stock();
     if (!stock_reason.empty()) return;
@@ -125,9 +126,10 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   void unpack_restart(int i, int nth) override
   {
     contacts.history.put_aside();
-    if (this->use_history)
-      stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
-                          [this](const double *data) { return stock_size(data); });
+    if (this->use_history &&
+        !stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
+                             [this](const double *data) { return stock_size(data); }))
+      return;
     Stock::unpack_restart(i, nth);
   }
   int size_restart(int i) override

@@ -67,6 +67,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
         const bool is_count = data[1] >= 0.0 && data[1] <= atom->nextra_store;
         return is_count ? header + stock_entry() * static_cast<bigint>(data[1]) : -1;
       });
+  if (!from) return;
   const int contacts = static_cast<int>(from[1]);
   from += header;
   Talus::HistoryStore &store = system->store()->histories();

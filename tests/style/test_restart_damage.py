@@ -102,7 +102,7 @@ class Damage(SceneCase):
             chosen += self.random.sample(of_style, min(self.rows, len(of_style)))
         for part in chosen:
             yield part, part.begin + 7, 4    # of a mark, or the exponent of a count
-            yield part, part.begin + self.random.choice((8, 9, 12, 16)), self.random.randrange(8)
+            yield part, part.begin + self.random.choice((8, 9, 12)), self.random.randrange(8)
             for _ in range(self.bits_of_part):
                 yield part, self.random.randrange(part.begin, part.end), self.random.randrange(8)
 
