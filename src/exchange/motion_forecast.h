@@ -14,7 +14,8 @@
 // changes a velocity, before the next check, by more than the largest speed there is. (The change
 // in a stable step is about omega dt times the relative speed, with omega dt well below 1, and a
 // whole collision of equal particles ends with at most the speed of the other one; see
-// doc/run_style_verlet_proxy.md.) Where this does not hold, for instance because positions are set
+// doc/run_style_verlet_proxy.md.) While nothing moves at all, that says nothing: any force may set particles in
+// motion, and they may leave at once. Where this does not hold, for instance because positions are set
 // by something else than v, the list may be late: that is noticed in the next forecast by its D,
 // and counts as a dangerous build.
 //
@@ -32,7 +33,10 @@ struct MotionForecast {
 
   /// Whether a particle may be further than `limit` from where it was in one of the next `steps`
   /// steps.
-  bool may_leave(double limit, int steps) const { return moved + 2.0 * steps * step > limit; }
+  bool may_leave(double limit, int steps) const
+  {
+    return step == 0.0 || moved + 2.0 * steps * step > limit;
+  }
 };
 
 /// Of particles 0 ... n-1 with positions x, positions x_then when the list was made, and velocities

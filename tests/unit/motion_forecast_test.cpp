@@ -36,11 +36,16 @@ TEST(MotionForecast, MaximaOfSingleParticles)
   EXPECT_FALSE(f.may_leave(25.1, 5));
 }
 
-TEST(MotionForecast, NothingMovesNowhere)
+// What is at rest tells nothing of how a force will move it.
+TEST(MotionForecast, WhatRestsMayLeaveAtOnce)
 {
-  const MotionForecast f = forecast_motion(0, nullptr, nullptr, nullptr, 1.0);
-  EXPECT_EQ(f.moved, 0.0);
-  EXPECT_FALSE(f.may_leave(0.0, 5));
+  const double x[3] = {1.0, 2.0, 3.0}, v[3] = {0.0, 0.0, 0.0};
+  for (const int n : {0, 1}) {
+    const MotionForecast f = forecast_motion(n, x, x, v, 1.0);
+    EXPECT_EQ(f.moved, 0.0);
+    EXPECT_TRUE(f.may_leave(0.0, 1));
+    EXPECT_TRUE(f.may_leave(9.0, 5));
+  }
 }
 
 // Particles that collide with each other in any way that keeps to the assumption are never outside
