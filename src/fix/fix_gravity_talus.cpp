@@ -8,6 +8,8 @@
 #include "system/time_formula.h"
 
 #include "atom.h"
+#include "comm.h"
+#include "error.h"
 #include "group.h"
 #include "input.h"
 #include "modify.h"
@@ -38,6 +40,25 @@ void FixGravityTalus::init()
   FixGravity::init();
   evaluated_at = -1;
   reason = find_reason();
+  if (reason.empty()) say_where_it_differs();
+}
+
+/* In the order of the fixes, rigid bodies sum up their forces when a run is set up. */
+
+void FixGravityTalus::say_where_it_differs()
+{
+  for (const Fix *fix : Talus::fix_list(*modify)) {
+    if (fix == this) return;
+    if (!fix->rigid_flag || utils::strmatch(fix->style, "/symplectic$")) continue;
+    if (comm->me == 0 && !has_said)
+      error->warning(
+          FLERR,
+          "Fix gravity {}: in LAMMPS the bodies of fix {} do not fall in the first half step of a "
+          "run, because fix gravity comes behind it; here they do: put fix gravity before it for "
+          "the same results with both",
+          id, fix->id);
+    has_said = true;
+  }
 }
 
 std::string FixGravityTalus::find_reason()

@@ -51,6 +51,9 @@ class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
   std::string reason = "no run yet";    // for the methods of LAMMPS
   bigint evaluated_at = -1;             // step of the variables' values
 
+  bool has_said = false;
+
+  void say_where_it_differs();
   std::string find_reason();
   std::string reason_of_variables() const;
   std::string reason_of_fixes_before() const;
