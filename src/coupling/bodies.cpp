@@ -69,10 +69,11 @@ int call_watch_body(talus_partner *partner, const char *body, const double *poin
       const std::vector<double> numbers = partner->numbers_of("point", point, 3);
       about = {numbers[0], numbers[1], numbers[2]};
     }
-    watched.watch(about);
+    const int number = partner->number();
+    watched.watch(about, number);
     const std::string id = watched.command()->id;
-    partner->at_close("watch " + id, [id](GranularSystem &system) {
-      if (LargeBody *one = system.bodies().find(id)) one->unwatch();
+    partner->at_close("watch " + id, [id, number](GranularSystem &system) {
+      if (LargeBody *one = system.bodies().find(id)) one->unwatch(number);
     });
     partner->needs_set_up = true;    // its load is summed from then on
   });

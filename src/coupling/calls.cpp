@@ -91,7 +91,7 @@ void advance(talus_partner &partner, std::int64_t steps)
                   std::to_string(MAXSMALLINT));
   partner.set_up_if_needed();
   if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
-  partner.remember_definitions();
+  partner.system().definitions().are_present();
 }
 
 }    // namespace

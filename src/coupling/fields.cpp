@@ -75,12 +75,14 @@ int call_get_field(talus_partner *partner, const double *lo, const double *hi, c
       if (with_solid) amount[0] = particle_volume(atom, shapes, i);
       for (int d = 0; d < 3 && with_momentum; d++)
         amount[of_momentum + d] = atom.rmass[i] * atom.v[i][d];
-      const double *const impulse = with_exchange ? loads.impulse_for_fields(i) : nullptr;
+      const double *const impulse =
+          with_exchange ? loads.impulse_for_fields(partner->number(), i) : nullptr;
       for (int d = 0; d < 3 && with_exchange; d++)
         amount[of_exchange + d] = impulse ? impulse[d] : 0.0;
     });
     for (int i = 0; i < atom.nlocal && with_exchange; i++)
-      if (double *const impulse = loads.impulse_for_fields(i); impulse && grid.has(i))
+      if (double *const impulse = loads.impulse_for_fields(partner->number(), i);
+          impulse && grid.has(i))
         std::fill(impulse, impulse + 3, 0.0);
     if (with_solid) partner->give(solid, columns_of(table, width_of_table, 0, 1));
     if (with_momentum) partner->give(momentum, columns_of(table, width_of_table, of_momentum, 3));

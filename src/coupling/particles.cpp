@@ -28,8 +28,9 @@ ExternalLoads &loads_of(talus_partner &partner)
   const std::string problem = loads.reason_against();
   if (!problem.empty()) throw Refusal(problem);
   if (loads.make_fix()) partner.needs_set_up = true;
+  const int number = partner.number();
   partner.at_close("loads on particles",
-                   [](GranularSystem &system) { system.external_loads().clear(); });
+                   [number](GranularSystem &system) { system.external_loads().clear(number); });
   return loads;
 }
 
@@ -79,7 +80,7 @@ int call_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const 
       throw Refusal("force and torque are both NULL");
     const ParticlesById particles(&partner->instance(), ids);
     require_all(particles, true);
-    loads_of(*partner).put_forces(particles, or_null(forces), or_null(torques));
+    loads_of(*partner).put_forces(partner->number(), particles, or_null(forces), or_null(torques));
   });
 }
 
@@ -102,7 +103,7 @@ int call_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const do
     require_all(particles, true);
     ExternalLoads &loads = loads_of(*partner);
     partner->refuse_if(loads.problem_of_drag(particles, coefficients.data()));
-    loads.put_drag(particles, coefficients.data(), velocities.data());
+    loads.put_drag(partner->number(), particles, coefficients.data(), velocities.data());
   });
 }
 
@@ -117,7 +118,7 @@ int call_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const do
                     "and 'fix heat/flow'");
     const ParticlesById particles(&partner->instance(), ids);
     require_all(particles, true);
-    loads_of(*partner).put_heat(particles, flows.data());
+    loads_of(*partner).put_heat(partner->number(), particles, flows.data());
   });
 }
 
@@ -128,7 +129,7 @@ int call_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id,
     const ParticlesById particles(&partner->instance(), ids);
     require_all(particles, true);
     std::vector<double> impulses(3 * ids.size());
-    partner->system().external_loads().take_impulses(particles, impulses.data());
+    partner->system().external_loads().take_impulses(partner->number(), particles, impulses.data());
     partner->sum(impulses);
     partner->give(impulse, impulses);
   });

@@ -3,7 +3,6 @@
 #include "coupling/partner.h"
 
 #include "base/state_digest.h"
-#include "system/definitions.h"
 
 #include "comm.h"
 #include "error.h"
@@ -20,6 +19,8 @@
 using namespace LAMMPS_NS;
 using namespace Talus;
 
+int OwnRanks::last_number = 0;
+
 OwnRanks::~OwnRanks()
 {
   int finalized = 0;
@@ -27,11 +28,37 @@ OwnRanks::~OwnRanks()
   if (!finalized) MPI_Comm_free(&comm);
 }
 
+/* Another instance may have got the address of one that is gone. */
+
+std::shared_ptr<OwnRanks> OwnRanks::of(LAMMPS *lmp, MPI_Comm of_instance)
+{
+  static std::map<const LAMMPS *, std::weak_ptr<OwnRanks>> all;
+  std::shared_ptr<OwnRanks> ranks = all[lmp].lock();
+  int alike = MPI_UNEQUAL;
+  if (ranks) MPI_Comm_compare(ranks->comm, of_instance, &alike);
+  if (ranks && ranks->failed.empty() && alike == MPI_CONGRUENT) return ranks;
+  ranks = std::make_shared<OwnRanks>(of_instance);
+  MPI_Allreduce(&last_number, &ranks->last, 1, MPI_INT, MPI_MAX, ranks->comm);
+  all[lmp] = ranks;
+  return ranks;
+}
+
+/* Never used again, also after all partners are closed. */
+
+int OwnRanks::next_number()
+{
+  last_number = std::max(last_number, ++last);
+  return last;
+}
+
 talus_partner::talus_partner(LAMMPS *lmp, int root_rank) :
-    Pointers(lmp), ranks(Pointers::world), root(root_rank)
+    Pointers(lmp), ranks(OwnRanks::of(lmp, Pointers::world)), order(ranks->coming_number()),
+    root(root_rank)
 {
   MPI_Comm_rank(world(), &me);
   MPI_Comm_size(world(), &num_ranks);
+  if (!agree("talus_open")) throw Refusal("talus_open: " + text);
+  static_cast<void>(ranks->next_number());
   int here[2] = {root, -root}, lowest[2];
   MPI_Allreduce(here, lowest, 2, MPI_INT, MPI_MIN, world());
   if (lowest[0] != -lowest[1])
@@ -123,39 +150,43 @@ void broadcast(std::string &text, int from, MPI_Comm world)
 
 }    // namespace
 
-/* One reduction: of the name of the call, and of the lowest rank whose partner has failed. `name`: nullptr
-   for that. Ranks that make different calls have lost each other for good. */
+/* One reduction: of the name of the call, of the partner, and of the lowest rank whose partner has failed. `name`:
+   nullptr for that. Ranks that make different calls have lost each other for good, whatever the partner. */
 
 bool talus_partner::agree(const char *name)
 {
-  if (!failed.empty()) {
-    text = failed;
+  if (!why_failed().empty()) {
+    text = why_failed();
     return false;
   }
   const double digest = as_number(name ? digest_of(name, std::strlen(name)) : of_failure);
-  const double none = std::numeric_limits<double>::max();
-  double here[3] = {name ? digest : none, name ? -digest : none, name ? none : me}, all[3];
-  MPI_Allreduce(here, all, 3, MPI_DOUBLE, MPI_MIN, world());
+  const double none = std::numeric_limits<double>::max(), partner = order;
+  double here[5] = {name ? digest : none, name ? -digest : none, name ? none : me, partner,
+                    -partner},
+         all[5];
+  MPI_Allreduce(here, all, 5, MPI_DOUBLE, MPI_MIN, world());
+  const bool same_partner = all[3] == -all[4];
   if (all[2] != none) {
-    set_failed(static_cast<int>(all[2]));
+    set_failed(static_cast<int>(all[2]), !same_partner);
     return false;
   }
-  if (all[0] == -all[1]) return true;
+  if (all[0] == -all[1] && same_partner) return true;
   text = "not all ranks make the same call, on rank 0 " + std::string(name) +
+         (same_partner ? "" : " of partner " + std::to_string(order)) +
          ": every rank makes all calls in the same order";
-  set_failed(0);
+  set_failed(0, true);
   return false;
 }
 
-void talus_partner::set_failed(int rank)
+void talus_partner::set_failed(int rank, bool all_partners)
 {
   broadcast(text, rank, world());
-  failed = text;
+  (all_partners ? ranks->failed : failed) = text;
 }
 
 int talus_partner::fail(const char *why) noexcept
 {
-  if (!failed.empty()) return TALUS_PARTNER_FAILED;
+  if (!why_failed().empty()) return TALUS_PARTNER_FAILED;
   text = "the partner on rank " + std::to_string(me) +
          " has failed: " + (why ? why : "no reason given");
   agree(nullptr);
@@ -168,7 +199,7 @@ int talus_partner::close() noexcept
     for (const auto &[name, work] : last) work(*of_instance);
   int finalized = 0;
   MPI_Finalized(&finalized);
-  if (finalized || !failed.empty()) return TALUS_OK;
+  if (finalized || !why_failed().empty()) return TALUS_OK;
   text.clear();
   return agree("talus_close") ? TALUS_OK : TALUS_PARTNER_FAILED;
 }
@@ -340,21 +371,22 @@ void talus_partner::command(const std::string &line)
   lmp->input->one(line);
 }
 
-bool talus_partner::is_set_up_due()
-{
-  return needs_set_up || digest_of_definitions(instance(), system()) != set_up_with;
-}
-
 void talus_partner::set_up_if_needed()
 {
-  if (!is_set_up_due()) return;
+  if (needs_set_up || !system().definitions().change_with_particles().empty()) set_up();
+}
+
+void talus_partner::set_up_if_lost()
+{
+  if (!system().definitions().lost().empty()) set_up();
+}
+
+/* A run style of LAMMPS does not tell that a run has been set up. */
+
+void talus_partner::set_up()
+{
   system().external_loads().make_fix();
   command("run 0 post no");
   needs_set_up = false;
-  remember_definitions();
-}
-
-void talus_partner::remember_definitions()
-{
-  set_up_with = digest_of_definitions(instance(), system());
+  system().definitions().are_set_up();
 }

@@ -28,14 +28,25 @@ class Refusal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The ranks of a LAMMPS instance, with messages of their own: not those of LAMMPS.
+/// The ranks of a LAMMPS instance, with messages of their own: not those of LAMMPS. All partners of the instance
+/// share them, so that ranks notice that they call different ones.
 class OwnRanks {
  public:
+  /// Collective where there is no partner yet.
+  static std::shared_ptr<OwnRanks> of(LAMMPS_NS::LAMMPS *lmp, MPI_Comm of_instance);
   explicit OwnRanks(MPI_Comm of_instance) { MPI_Comm_dup(of_instance, &comm); }
   ~OwnRanks();
   OwnRanks(const OwnRanks &) = delete;
   OwnRanks &operator=(const OwnRanks &) = delete;
   MPI_Comm comm = MPI_COMM_NULL;
+  std::string failed;    ///< "" or why all of them are gone
+  /// Of the next partner, the same on all ranks: the one it would have, and for good.
+  int coming_number() const { return last + 1; }
+  int next_number();
+
+ private:
+  int last = 0;
+  static int last_number;    ///< of all instances on this rank
 };
 
 }    // namespace Talus
@@ -47,6 +58,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   talus_partner(LAMMPS_NS::LAMMPS *lmp, int root);
 
   LAMMPS_NS::LAMMPS &instance() const { return *lmp; }
+  /// The how manyth of the instance, from 1: what it puts on particles is its own.
+  int number() const { return order; }
 
   /// Makes a call: all ranks agree that they make this one, then `work` is done. Returns its code.
   int collective(const char *name, const std::function<void()> &work) noexcept;
@@ -86,14 +99,13 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
 
   /// A command of LAMMPS.
   void command(const std::string &line);
-  /// The set-up of a run, if one is due: at first, after needs_set_up, or if there is something else to
-  /// set up than at the end of the last one, see digest_of_definitions().
+  /// The set-up of a run, if one is due: at first, after needs_set_up, or if what is to be set up has changed
+  /// since the last run.
   void set_up_if_needed();
-  /// A run has ended.
-  void remember_definitions();
+  /// The same where only what others may point to counts: deleted, or defined anew.
+  void set_up_if_lost();
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
-  bool is_set_up_due();
   /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
   /// ends.
   void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)
@@ -102,17 +114,20 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   }
   /// See GranularSystem: that of the instance while the call lasts, for `clear` makes another one.
   Talus::GranularSystem &system() { return *granular; }
-  MPI_Comm world() const { return ranks.comm; }
+  MPI_Comm world() const { return ranks->comm; }
 
  private:
-  std::uint64_t set_up_with = 0;
+  void set_up();
   bool agree(const char *name);
   int code_of(const char *name, const std::function<void()> &work);
   int stop_all(const char *name, const std::exception &problem);
   void check(const char *what, const std::string &problem, std::uint64_t digest);
-  void set_failed(int rank);
+  /// Of this partner, or of all.
+  const std::string &why_failed() const { return failed.empty() ? ranks->failed : failed; }
+  void set_failed(int rank, bool all_partners);
 
-  Talus::OwnRanks ranks;
+  const std::shared_ptr<Talus::OwnRanks> ranks;
+  const int order;
   const int root;
   int me, num_ranks;
   std::shared_ptr<Talus::GranularSystem> granular;

@@ -39,9 +39,10 @@ int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
   return partner->collective("talus_restore", [&] {
     partner->refuse_if(snapshot ? snapshot->state.reason_against_restoring(partner->system())
                                 : "snapshot is NULL");
-    const bool due = partner->is_set_up_due();
+    partner->set_up_if_lost();    // restoring calls fixes, which look at regions and exchange
+    const bool due = partner->needs_set_up || !partner->system().definitions().change().empty();
     snapshot->state.restore();
-    partner->remember_definitions();    // the number of particles is another one
+    partner->system().definitions().are_present();
     partner->needs_set_up = due;
   });
 }

@@ -6,7 +6,7 @@
 
    * Units are those of the input script, vectors are in the axes of the box, quaternions are w x y z.
    * Calls are made between runs. All are collective but those marked "local": every MPI rank of the instance makes them, in
-     the same order.
+     the same order, also those of several partners.
    * The partner lives on all ranks (root = TALUS_ALL_RANKS: all pass the same arguments and get the same results) or on one
      (root = its rank in the communicator of the instance: only its arguments are read and only its results are written;
      others may pass NULL and 0).
@@ -71,7 +71,8 @@ int talus_advance(talus_partner *partner, int64_t steps);
 /* The same for a time (time units), which must be a whole number of time steps to 1e-6 of one. */
 int talus_advance_by(talus_partner *partner, double duration);
 /* After commands of the script that change more than numbers: the next advance begins with the set-up of a run. Fixes,
-   computes, pair styles, laws and particles that come or go are noticed without it. */
+   computes, regions, pair styles, laws, styles of communication and particles that come or go, or that a command has
+   moved to other ranks, are noticed without it. */
 int talus_set_up(talus_partner *partner);
 
 /* ---- rigid bodies: fix large/body, by the ID of the fix ---------------------------------------------- */
@@ -122,8 +123,8 @@ int64_t talus_snapshot_size(const talus_snapshot *snapshot);
 
 /* ---- particles, by ID ------------------------------------------------------------------------------ */
 
-/* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all of
-   them. n = 0: none from now on. */
+/* Forces and torques (3 each, NULL: none) on n particles, in each step until the next call of this, which replaces all that
+   this partner has put. n = 0: none from now on. What several partners put adds up. */
 int talus_put_forces(talus_partner *partner, int64_t n, const int64_t *id, const double *force,
                      const double *torque);
 /* A drag force c (u - v): coefficient c (force/velocity, > 0) and velocity u of the fluid (3 each), taken at the new velocity
@@ -133,7 +134,7 @@ int talus_put_drag(talus_partner *partner, int64_t n, const int64_t *id, const d
                    const double *fluid_velocity);
 /* Heat flow (energy/time) into particles that have a temperature. Held and replaced as forces are. */
 int talus_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const double *flow);
-/* Impulse (3 each) that the fluid has given n particles by drag, each since it was asked for last. */
+/* Impulse (3 each) that the drag which this partner has put has given n particles, each since it was asked for last. */
 int talus_get_drag_impulses(talus_partner *partner, int64_t n, const int64_t *id, double *impulse);
 /* Number of particles; then their IDs ascending (n of them, room for all), and of the given ones places, velocities,
    angular velocities (3 each), radii, masses. Any may be NULL. */

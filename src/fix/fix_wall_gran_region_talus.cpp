@@ -2,6 +2,8 @@
 
 #include "fix/fix_wall_gran_region_talus.h"
 
+#include "domain.h"
+#include "error.h"
 #include "region.h"
 #include "system/time_formula.h"
 
@@ -28,6 +30,24 @@ void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
   wall.are_listed(BodyCandidates::bounds_of_search(
       BodyFrame{}, particles, atom->mask, groupbit, neighbor->skin,
       contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
+}
+
+/* Between two runs. */
+
+void FixWallGranRegionTalus::for_each_contact(ContactData requested, const VisitContact &visit)
+{
+  if (wall.is_there()) AcceleratedWall::for_each_contact(requested, visit);
+}
+
+void FixWallGranRegionTalus::write_restart(FILE *file)
+{
+  if (domain->get_region_by_id(idregion) != region)
+    error->all(
+        FLERR,
+        "Fix wall/gran/region {}: region '{}' has been deleted or defined anew since the last run: "
+        "let a run be set up before its state is saved",
+        id, idregion);
+  AcceleratedWall::write_restart(file);
 }
 
 int FixWallGranRegionTalus::read(int i, int k, HistoryValues &values) const

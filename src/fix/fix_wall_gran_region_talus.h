@@ -19,6 +19,8 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
       AcceleratedWall(lmp, narg, arg, "wall/gran/region")
   {
   }
+  void write_restart(FILE *file) override;
+  void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override;
 
  protected:
   void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }

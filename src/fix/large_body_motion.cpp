@@ -196,19 +196,21 @@ void LargeBodyMotion::finish(LargeBodyShape &shape)
 
 /* ---- motion --------------------------------------------------------------------------------- */
 
-void LargeBodyMotion::find(Quantity &q)
+int LargeBodyMotion::find(const Quantity &q) const
 {
-  if (q.name.empty()) return;
-  q.index = input->variable->find(q.name.c_str());
-  if (q.index < 0) error->all(FLERR, "Fix large/body: variable '{}' does not exist", q.name);
-  if (!input->variable->equalstyle(q.index))
+  const int index = input->variable->find(q.name.c_str());
+  if (index < 0) error->all(FLERR, "Fix large/body: variable '{}' does not exist", q.name);
+  if (!input->variable->equalstyle(index))
     error->all(FLERR, "Fix large/body: variable '{}' is not an equal-style variable", q.name);
+  return index;
 }
 
 void LargeBodyMotion::init()
 {
-  for (Quantity &q : path) find(q);
-  for (Quantity &q : given_load) find(q);
+  for (const Quantity &q : path)
+    if (!q.name.empty()) static_cast<void>(find(q));
+  for (const Quantity &q : given_load)
+    if (!q.name.empty()) static_cast<void>(find(q));
 }
 
 bool LargeBodyMotion::asks_variables() const
@@ -223,7 +225,7 @@ bool LargeBodyMotion::asks_variables() const
 
 double LargeBodyMotion::evaluate(const Quantity &q)
 {
-  return q.name.empty() ? q.value : input->variable->compute_equal(q.index);
+  return q.name.empty() ? q.value : input->variable->compute_equal(find(q));
 }
 
 void LargeBodyMotion::evaluate_state()
@@ -271,7 +273,7 @@ void LargeBodyMotion::evaluate_region(double dt)
 
 void LargeBodyMotion::follow(Region &followed, const Vector3<double> &reference)
 {
-  region = &followed;
+  region = RegionHandle(*domain, followed);
   const Kind before = kind;
   kind = followed.dynamic ? Kind::REGION : Kind::NONE;
   now.moves = moves();

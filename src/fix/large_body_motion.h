@@ -17,6 +17,7 @@
 #include "body/shape/mesh_shape.h"
 #include "fix/constant_gravity.h"
 #include "lmptype.h"
+#include "system/region_handle.h"
 
 #include <memory>
 #include <string>
@@ -89,14 +90,13 @@ class LargeBodyMotion : protected Pointers {
   struct Quantity {
     double value = 0.0;
     std::string name;
-    int index = -1;
   };
   void parse_move(Talus::Words &words);
   void parse_variable(Talus::Words &words);
   void parse_free(Talus::Words &words);
   void parse_servo(Talus::Words &words);
   Quantity quantity(Talus::Words &words, const char *name);
-  void find(Quantity &q);
+  int find(const Quantity &q) const;
   double evaluate(const Quantity &q);
   void evaluate_state();
   void evaluate_region(double dt);
@@ -114,8 +114,8 @@ class LargeBodyMotion : protected Pointers {
   std::unique_ptr<Talus::PrescribedMotion> prescribed;
   Quantity path[8];    // displacement, velocity, angle, angular velocity
   Talus::Vector3<double> angle_axis{0.0, 0.0, 1.0};
-  Region *region = nullptr;     // that the body follows
-  double region_angle = 0.0;    // at the state that `now` has
+  Talus::RegionHandle region;    // that the body follows
+  double region_angle = 0.0;     // at the state that `now` has
   Talus::ExternalMotion external;
   Talus::RigidBody rigid;
   Talus::Servo servo;

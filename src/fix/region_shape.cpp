@@ -16,7 +16,7 @@ using Talus::NearParts;
 using Talus::SurfaceContact;
 using Talus::Vector3;
 
-RegionShape::RegionShape(Region *r, const char *name, const Domain &domain) : region(r), id(name)
+RegionShape::RegionShape(Region *r, const char *name, const Domain &domain) : id(name)
 {
   replace(r, domain);
 }
@@ -25,7 +25,7 @@ RegionShape::RegionShape(Region *r, const char *name, const Domain &domain) : re
 
 void RegionShape::replace(Region *now, const Domain &domain)
 {
-  region = now;
+  region = Talus::RegionHandle(domain, *now);
   span = Talus::PeriodicSpan(*now, domain);
   middle = {0.0, 0.0, 0.0};
   if (region->dynamic) {

@@ -5,6 +5,7 @@
 
 #include "body/shape/large_body_shape.h"
 #include "fix/region_surface.h"
+#include "system/region_handle.h"
 
 #include <string>
 
@@ -23,6 +24,7 @@ class RegionShape : public Talus::LargeBodyShape {
   /// Regions may be deleted and defined again between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
   void replace(Region *now, const Domain &domain);
+  const Talus::RegionHandle &handle() const { return region; }
 
   /// Why a region cannot be a body, or "". `moves`: the body has a motion of its own.
   static std::string refusal(Region &region, bool moves);
@@ -39,7 +41,7 @@ class RegionShape : public Talus::LargeBodyShape {
                std::vector<Talus::NearPart> &parts) const override;
 
  private:
-  Region *region;
+  Talus::RegionHandle region;
   std::string id;
   Talus::Vector3<double> middle{0.0, 0.0, 0.0};
   Talus::PeriodicSpan span;

@@ -6,6 +6,7 @@
 #include "base/linear_algebra.h"
 #include "body/contact/wall_surface.h"
 #include "fix/region_surface.h"
+#include "system/region_handle.h"
 
 #include <vector>
 
@@ -19,6 +20,8 @@ class RegionWall : public Talus::WallSurface {
   /// In init() of the fix. `radii_vary`: then all particles may touch it in every step.
   RegionWall(Region &region, const Domain &domain, bool radii_vary);
 
+  /// Between two runs it may be gone: then nothing is to be asked.
+  bool is_there() const { return region.is_there(); }
   /// In each step.
   void place();
   /// It moves or changes its shape.
@@ -47,7 +50,7 @@ class RegionWall : public Talus::WallSurface {
                           bool listed) const;
   Talus::Vector3<double> velocity_at(const Talus::Vector3<double> &center, int contact) const;
 
-  Region *region = nullptr;
+  Talus::RegionHandle region;
   bool dynamic = false;          // it moves or changes its shape
   bool bounded = false;          // distances from it are known
   bool simple = false;           // and it is not made of others

@@ -64,6 +64,9 @@ void VerletProxy::setup(int flag)
   system->steps_in_records().report(pair_compute_flag);
   Verlet::setup(flag);
   if (lists) lists->list_is_new();
+  ever_set_up = set_up = true;
+  needs_lists = false;
+  system->definitions().are_set_up();
 }
 
 void VerletProxy::setup_minimal(int flag)
@@ -99,8 +102,20 @@ void VerletProxy::decide_on_overlap()
 
 /* ---------------------------------------------------------------------- */
 
+/* `run ... pre no`. LAMMPS calls the fixes that it has listed, and we those that there are. */
+
+void VerletProxy::go_on_without_set_up()
+{
+  const std::string change = system->definitions().change_with_particles();
+  if (!change.empty())
+    error->all(FLERR, "Run: leave 'pre no' out: {} since the last set-up", change);
+  needs_lists = system->definitions().have_other_ghosts();
+}
+
 void VerletProxy::run(int n)
 {
+  if (!set_up && system->has_pair_style()) go_on_without_set_up();
+  set_up = false;
   if (ProxyUpdates *proxies = system->exchange().direct()) {
     at_start = proxies->counters();
     proxies->set_overlap(overlaps);
@@ -150,7 +165,9 @@ void VerletProxy::step()
   timer->stamp(Timer::MODIFY);
 
   // LAMMPS' decide() waits for all ranks
-  const bool must_rebuild = lists->decide([this] { return system->moved_since_rebuild(); });
+  const bool is_due = lists->decide([this] { return system->moved_since_rebuild(); });
+  const bool must_rebuild = is_due || needs_lists;
+  needs_lists = false;
   if (must_rebuild) rebuild();
   // LAMMPS' forces are not read in a step after which particles stay in the records
   const bool to_arrays = system->begin_forces(now, eflag || vflag);
@@ -259,6 +276,7 @@ void VerletProxy::compute_forces(bool to_arrays)
 void VerletProxy::cleanup()
 {
   Verlet::cleanup();
+  system->definitions().are_present();
   if (comm->me == 0 && lists) {
     if (lists->num_delayed())
       error->warning(FLERR,

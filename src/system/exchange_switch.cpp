@@ -51,11 +51,16 @@ void copy_cutoffs_by_kind(const Comm &from, Comm &to, [[maybe_unused]] int types
 #endif
 }
 
-/* The stock object. It holds the system, and with it what the user has chosen, until `clear`. */
+/* The stock object, which is watched. It holds the system, and with it what the user has chosen, until
+   `clear`. */
 
 template <class Base> class StockComm : public Base {
  public:
-  StockComm(LAMMPS *lmp, Comm *old) : Base(lmp, old), system(GranularSystem::of(lmp)) {}
+  StockComm(LAMMPS *lmp, Comm *old) : Base(lmp, old), system(GranularSystem::of(lmp))
+  {
+    system->exchange().is_made(this, nullptr);
+  }
+  ~StockComm() override { system->exchange().is_deleted(this); }
 
  private:
   std::shared_ptr<GranularSystem> system;
@@ -77,7 +82,11 @@ void ExchangeSwitch::choose(Choice choice)
   chosen = choice;
   const bool is_direct = present();
   if (choice == Choice::YES && !is_direct) replace_comm(make_direct(lmp, comm));
-  if (choice != Choice::NO) return;
+  if (choice == Choice::NO) use_stock();
+}
+
+void ExchangeSwitch::use_stock()
+{
   if (comm->style == Comm::BRICK)
     replace_comm(new StockComm<CommBrick>(lmp, comm));
   else
@@ -89,12 +98,16 @@ void ExchangeSwitch::start_run()
   settle_brick();
   const bool has_proxies =
       comm->nprocs > 1 || domain->xperiodic || domain->yperiodic || domain->zperiodic;
-  if (!has_proxies || chosen == Choice::NO || present()) return;
-  if (unsupported(false).empty()) replace_comm(make_direct(lmp, comm));
+  if (present()) return;
+  if (has_proxies && chosen != Choice::NO && unsupported(false).empty())
+    replace_comm(make_direct(lmp, comm));
+  else if (comm != made && !lmp->kokkos)
+    use_stock();
 }
 
 void ExchangeSwitch::is_made(const Comm *one, ProxyUpdates *proxies)
 {
+  if (one) num_made++;
   made = one;
   proxies_of_made = proxies;
 }
@@ -102,6 +115,12 @@ void ExchangeSwitch::is_made(const Comm *one, ProxyUpdates *proxies)
 void ExchangeSwitch::is_deleted(const Comm *one)
 {
   if (made == one) is_made(nullptr, nullptr);
+}
+
+int ExchangeSwitch::number_of_object() const
+{
+  if (comm == made) return num_made;
+  return comm->style == Comm::BRICK ? -1 : -2;
 }
 
 ProxyUpdates *ExchangeSwitch::direct() const
@@ -167,6 +186,8 @@ void ExchangeSwitch::replace_comm(Comm *with)
   copy_cutoffs_by_kind(*old, *with, atom->ntypes);
   comm = with;
   settle_brick();
+  // where the tiles of other ranks are has to be gathered again
+  if (comm->layout == Comm::LAYOUT_TILED) comm->rcbnew = 1;
   delete old;
   // The new object knows of no ghosts yet: even 'run N pre no' has to set up everything.
   update->first_update = 0;

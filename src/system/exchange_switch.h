@@ -36,13 +36,16 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   Choice choice() const { return chosen; }
 
   /// Of a run that can use it, before Comm::init(): switches the direct exchange on unless the user
-  /// or LAMMPS is against it. It falls back later if something else is found.
+  /// or LAMMPS is against it. It falls back later if something else is found. In any case the communication
+  /// object of the run is one of Talus, which tells when it is deleted.
   void start_run();
 
-  /// From the constructor and the destructor of a direct exchange: in every step it is asked
-  /// several times whether one is there.
+  /// From the constructor and the destructor of communication objects of Talus, with the direct exchange or
+  /// nullptr: in every step it is asked several times whether one is there.
   void is_made(const LAMMPS_NS::Comm *comm, ProxyUpdates *proxies);
   void is_deleted(const LAMMPS_NS::Comm *comm);
+  /// Of the present communication object: the how manyth of those of Talus; -1, -2: one of LAMMPS, brick or tiled.
+  int number_of_object() const;
   /// The direct exchange if it is in force, else nullptr.
   ProxyUpdates *direct() const;
   /// The same, also where it falls back.
@@ -58,9 +61,11 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
 
  private:
   void replace_comm(LAMMPS_NS::Comm *with);
+  void use_stock();
   void settle_brick();
 
   Choice chosen = Choice::AUTOMATIC;
+  int num_made = 0;
   const LAMMPS_NS::Comm *made = nullptr;
   ProxyUpdates *proxies_of_made = nullptr;
 };

@@ -61,10 +61,12 @@ bool ExternalLoads::make_fix()
   };
   const auto place = std::find(fixes.begin(), fixes.end(), fix);
   if (fix && std::none_of(place + 1, fixes.end(), acts_on_forces)) return false;
-  const auto kept = std::make_tuple(std::move(what), std::move(loads), std::move(rest));
+  const auto kept =
+      std::make_tuple(std::move(what), std::move(loads), std::move(rest), std::move(layers));
   if (fix) modify->delete_fix(fix_id);
   modify->add_fix(std::string(fix_id) + " all EXTERNAL_LOADS");
-  std::tie(what, loads, rest) = kept;
+  std::tie(what, loads, rest, layers) = kept;
+  set_maxexchange();
   return true;
 }
 
@@ -99,7 +101,9 @@ std::string ExternalLoads::needs_arrays() const
 bool ExternalLoads::is_idle(int i) const
 {
   return what[i] == 0 && is_zero(loads[i].impulse) && is_zero(rest[i].for_particles) &&
-         is_zero(rest[i].for_fields);
+         is_zero(rest[i].for_fields) &&
+         std::all_of(layers.begin(), layers.end(),
+                     [i](const Layer &layer) { return is_idle(layer[i]); });
 }
 
 void ExternalLoads::resize(std::size_t size)
@@ -107,10 +111,12 @@ void ExternalLoads::resize(std::size_t size)
   what.resize(size, 0);
   loads.resize(size, Load{});
   rest.resize(size, Rest{});
+  for (Layer &layer : layers) layer.resize(size, Part{});
   if (size) return;
   what.shrink_to_fit();
   loads.shrink_to_fit();
   rest.shrink_to_fit();
+  for (Layer &layer : layers) layer.shrink_to_fit();
 }
 
 void ExternalLoads::make_room()
@@ -126,48 +132,51 @@ void ExternalLoads::release_if_idle()
   resize(0);
 }
 
-/* put(k, i) for those that are to have some from now on. */
+/* put(k, where) for those that are to have some from now on, which returns the kinds. */
 
 template <class Put>
-void ExternalLoads::replace(unsigned kinds, const ParticlesById &particles, Put put)
+void ExternalLoads::replace(int partner, unsigned kinds, const ParticlesById &particles, Put put)
 {
+  if (particles.size() == 0 && place_of(partner) < 0) return;
+  const int layer = take_place(partner);
   if (particles.size()) make_room();
   if (what.empty()) return;
   const bool in_sums = (kinds & (FORCE | TORQUE | DRAG)) != 0;
   if (in_sums) take_back();    // by what was put before
-  for (int i = 0; i < atom->nlocal; i++) unset(i, kinds);
-  particles.for_each(put);
+  unset_kinds(layer, kinds);
+  particles.for_each([&](std::size_t k, int i) { set_kinds(layer, i, put(k, place(layer, i))); });
+  for (int i = 0; i < atom->nlocal; i++) add_up(i);
   if (in_sums) act(Moment::BETWEEN_STEPS);
   release_if_idle();
 }
 
-void ExternalLoads::put_forces(const ParticlesById &particles, const double *force,
+void ExternalLoads::put_forces(int partner, const ParticlesById &particles, const double *force,
                                const double *torque)
 {
   const bool flat = domain->dimension == 2;
-  replace(FORCE | TORQUE, particles, [&](std::size_t k, int i) {
-    if (force) copy_row(force + 3 * k, loads[i].force);
-    if (torque) copy_row(torque + 3 * k, rest[i].torque);
-    if (flat) loads[i].force[2] = rest[i].torque[0] = rest[i].torque[1] = 0.0;
-    set(i, (force ? FORCE : 0U) | (torque ? TORQUE : 0U));
+  replace(partner, FORCE | TORQUE, particles, [&](std::size_t k, const Place &to) {
+    if (force) copy_row(force + 3 * k, to.force);
+    if (torque) copy_row(torque + 3 * k, to.torque);
+    if (flat) to.force[2] = to.torque[0] = to.torque[1] = 0.0;
+    return (force ? FORCE : 0U) | (torque ? TORQUE : 0U);
   });
 }
 
-void ExternalLoads::put_drag(const ParticlesById &particles, const double *coefficient,
+void ExternalLoads::put_drag(int partner, const ParticlesById &particles, const double *coefficient,
                              const double *fluid_velocity)
 {
-  replace(DRAG, particles, [&](std::size_t k, int i) {
-    loads[i].coefficient = coefficient[k];
-    copy_row(fluid_velocity + 3 * k, loads[i].fluid_velocity);
-    set(i, DRAG);
+  replace(partner, DRAG, particles, [&](std::size_t k, const Place &to) {
+    *to.coefficient = coefficient[k];
+    copy_row(fluid_velocity + 3 * k, to.fluid_velocity);
+    return DRAG;
   });
 }
 
-void ExternalLoads::put_heat(const ParticlesById &particles, const double *flow)
+void ExternalLoads::put_heat(int partner, const ParticlesById &particles, const double *flow)
 {
-  replace(HEAT, particles, [&](std::size_t k, int i) {
-    rest[i].heat = flow[k];
-    set(i, HEAT);
+  replace(partner, HEAT, particles, [&](std::size_t k, const Place &to) {
+    *to.heat = flow[k];
+    return HEAT;
   });
 }
 
@@ -192,15 +201,16 @@ std::string ExternalLoads::problem_of_drag(const ParticlesById &particles,
   return problem;
 }
 
-void ExternalLoads::clear()
+void ExternalLoads::clear(int partner)
 {
-  const ParticlesById none(lmp, {});
-  for (int i = 0; i < static_cast<int>(what.size()); i++) {
-    settle_impulse(i);
-    clear_row(rest[i].for_particles);
-    clear_row(rest[i].for_fields);
-  }
-  replace(FORCE | TORQUE | DRAG | HEAT, none, [](std::size_t, int) {});
+  const int layer = place_of(partner);
+  if (layer < 0) return;
+  for (int i = 0; i < static_cast<int>(what.size()); i++)
+    for (double *const count : {counts_of(layer, i).for_particles, counts_of(layer, i).for_fields})
+      clear_row(count);
+  replace(partner, FORCE | TORQUE | DRAG | HEAT, ParticlesById(lmp, {}),
+          [](std::size_t, const Place &) { return 0U; });
+  drop_place(layer);
 }
 
 /* For both counts: steps sum one only. */
@@ -212,21 +222,21 @@ void ExternalLoads::settle_impulse(int i)
   clear_row(loads[i].impulse);
 }
 
-void ExternalLoads::take_impulses(const ParticlesById &particles, double *impulse)
+void ExternalLoads::take_impulses(int partner, const ParticlesById &particles, double *impulse)
 {
-  if (what.empty()) return;
+  const int layer = place_of(partner);
+  if (what.empty() || layer < 0) return;
   particles.for_each([&](std::size_t k, int i) {
-    settle_impulse(i);
-    copy_row(rest[i].for_particles, impulse + 3 * k);
-    clear_row(rest[i].for_particles);
+    double *const count = counts_of(layer, i).for_particles;
+    copy_row(count, impulse + 3 * k);
+    clear_row(count);
   });
 }
 
-double *ExternalLoads::impulse_for_fields(int i)
+double *ExternalLoads::impulse_for_fields(int partner, int i)
 {
-  if (what.empty()) return nullptr;
-  settle_impulse(i);
-  return rest[i].for_fields;
+  const int layer = place_of(partner);
+  return what.empty() || layer < 0 ? nullptr : counts_of(layer, i).for_fields;
 }
 
 /* ---- what travels with particles ------------------------------------------------------------ */
@@ -242,6 +252,7 @@ void ExternalLoads::copy(int from, int to)
   what[to] = what[from];
   loads[to] = loads[from];
   rest[to] = rest[from];
+  for (Layer &layer : layers) layer[to] = layer[from];
 }
 
 void ExternalLoads::forget(int i)
@@ -250,6 +261,7 @@ void ExternalLoads::forget(int i)
   what[i] = 0;
   loads[i] = Load{};
   rest[i] = Rest{};
+  for (Layer &layer : layers) layer[i] = Part{};
 }
 
 /* One number of those that bear nothing. */
@@ -263,7 +275,12 @@ int ExternalLoads::pack(int i, double *to) const
   to[0] = what[i];
   std::memcpy(to + 1, &loads[i], sizeof(Load));
   std::memcpy(to + 1 + sizeof(Load) / sizeof(double), &rest[i], sizeof(Rest));
-  return size_packed;
+  double *next = to + size_packed;
+  for (const Layer &layer : layers) {
+    std::memcpy(next, &layer[i], sizeof(Part));
+    next += size_part;
+  }
+  return most_packed();
 }
 
 int ExternalLoads::unpack(int i, const double *from)
@@ -276,13 +293,18 @@ int ExternalLoads::unpack(int i, const double *from)
   what[i] = static_cast<unsigned char>(from[0]);
   std::memcpy(&loads[i], from + 1, sizeof(Load));
   std::memcpy(&rest[i], from + 1 + sizeof(Load) / sizeof(double), sizeof(Rest));
-  return size_packed;
+  const double *next = from + size_packed;
+  for (Layer &layer : layers) {
+    std::memcpy(&layer[i], next, sizeof(Part));
+    next += size_part;
+  }
+  return most_packed();
 }
 
 double ExternalLoads::memory_usage() const
 {
   return static_cast<double>(what.capacity() + loads.capacity() * sizeof(Load) +
-                             rest.capacity() * sizeof(Rest));
+                             rest.capacity() * (sizeof(Rest) + layers.size() * sizeof(Part)));
 }
 
 }    // namespace Talus

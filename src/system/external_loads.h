@@ -14,8 +14,13 @@
 // and count as one. Of spheres of clumps drag is taken at the present velocity. Particles that nothing
 // moves, and frozen ones, bear drag at the velocity they have.
 //
-//   external_loads.cpp         the fix, what is put, what travels with particles
-//   external_loads_step.cpp    what moves particles, and a step
+// Several partners of an instance each put their own: forces, torques and heat add up, and drag of several is
+// that of c = sum c_k and u = sum c_k u_k / c, of which each has c_k (u_k - v), with the same v. As long as only
+// one has put some there are no parts.
+//
+//   external_loads.cpp          the fix, what is put, what travels with particles
+//   external_loads_parts.cpp    what each of several partners has put
+//   external_loads_step.cpp     what moves particles, and a step
 //
 // Per-atom data is here and not in the fix that LAMMPS calls (fix_external_loads.h), which may be made
 // anew: it has to be the last one that acts on forces. Without loads there is none, and a step costs
@@ -24,12 +29,12 @@
 #ifndef TALUS_SYSTEM_EXTERNAL_LOADS_H
 #define TALUS_SYSTEM_EXTERNAL_LOADS_H
 
+#include "base/state_exchange.h"
 #include "particles/particle_state.h"
 #include "system/particles_by_id.h"
 
 #include "pointers.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -54,23 +59,24 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// Returns whether the next run has to begin with a set-up.
   bool make_fix();
 
-  /// Each replaces all that was put of its kind. Numbers for each particle of the list: force and
+  /// Each replaces all that this partner (its number) has put of its kind. Numbers for each particle of the list: force and
   /// torque, 3 each, or nullptr; coefficient of drag (force/velocity), velocity of the fluid (3
   /// each); heat flow (energy/time).
-  void put_forces(const ParticlesById &particles, const double *force, const double *torque);
-  void put_drag(const ParticlesById &particles, const double *coefficient,
+  void put_forces(int partner, const ParticlesById &particles, const double *force,
+                  const double *torque);
+  void put_drag(int partner, const ParticlesById &particles, const double *coefficient,
                 const double *fluid_velocity);
-  void put_heat(const ParticlesById &particles, const double *flow);
+  void put_heat(int partner, const ParticlesById &particles, const double *flow);
   /// Of this rank: "", or why drag is too large where it is taken at the present velocity.
   std::string problem_of_drag(const ParticlesById &particles, const double *coefficient);
-  /// None of any kind from now on.
-  void clear();
+  /// The partner is going: none of it of any kind from now on.
+  void clear(int partner);
 
-  /// Impulses of drag (force time), two counts. Those of particles, for which they begin anew: 3
-  /// each, of those that this rank owns.
-  void take_impulses(const ParticlesById &particles, double *impulse);
+  /// Impulses of the drag that this partner has put (force time), two counts. Those of particles, for which they
+  /// begin anew: 3 each, of those that this rank owns.
+  void take_impulses(int partner, const ParticlesById &particles, double *impulse);
   /// And those for fields; nullptr: none.
-  double *impulse_for_fields(int i);
+  double *impulse_for_fields(int partner, int i);
 
   // ---- by the fix
 
@@ -87,16 +93,18 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void grow(int most);
   void copy(int from, int to);
   void forget(int i);
-  static constexpr int size_packed = 24;
+  /// Most numbers of a particle.
+  int most_packed() const;
   int pack(int i, double *to) const;
   int unpack(int i, const double *from);
   double memory_usage() const;
+  /// For snapshots: who has put something; before what travels with particles. And when all is restored: what
+  /// partners that are gone had put is dropped.
+  void exchange_state(StateExchange &x);
+  void state_is_restored();
   /// The fix is going.
   void drop_fix();
   void take_fix(LAMMPS_NS::Fix *one) { fix = one; }
-  /// LAMMPS has made its lists of the fixes that act, for whatever command: digest_of_fixes() then.
-  void lists_are_of(std::uint64_t fixes) { listed_fixes = fixes; }
-  std::uint64_t fixes_of_lists() const { return listed_fixes; }
 
  private:
   // of one particle, bits: ADDED: force, torque and drag are in the sums that are there between
@@ -110,7 +118,26 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   struct Rest {
     double torque[3], heat, for_particles[3], for_fields[3];
   };
+  static constexpr int size_packed = 24;
   static_assert(sizeof(Load) + sizeof(Rest) == sizeof(double) * (size_packed - 1));
+
+  /// What one of several partners has put on a particle, and impulses of its drag.
+  struct Part {
+    double kinds;    ///< bits FORCE to HEAT
+    double force[3], torque[3], coefficient, fluid_velocity[3], heat, for_particles[3],
+        for_fields[3];
+  };
+  static constexpr int size_part = sizeof(Part) / sizeof(double);
+  static bool has(const Part &part, unsigned some)
+  {
+    return (static_cast<unsigned>(part.kinds) & some) != 0;
+  }
+  /// By local index, of the partner with the same place in `partners`.
+  using Layer = std::vector<Part>;
+  /// Where a partner's numbers of a particle are kept.
+  struct Place {
+    double *force, *torque, *coefficient, *fluid_velocity, *heat;
+  };
 
   /// How the forces of now move the particles of one integrator.
   struct Kick {
@@ -132,7 +159,27 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void make_room();
   void resize(std::size_t size);
   void release_if_idle();
-  template <class Put> void replace(unsigned kinds, const ParticlesById &particles, Put put);
+  template <class Put>
+  void replace(int partner, unsigned kinds, const ParticlesById &particles, Put put);
+
+  // parts
+  int place_of(int partner) const;
+  int take_place(int partner);
+  void divide();
+  void unite();
+  void add_up(int i);
+  Place place(int layer, int i);
+  void set_kinds(int layer, int i, unsigned some);
+  void unset_kinds(int layer, unsigned some);
+  /// Impulses of the drag of one, two counts.
+  struct Counts {
+    double *for_particles, *for_fields;
+  };
+  Counts counts_of(int layer, int i);
+  void drop_place(int layer);
+  static bool is_idle(const Part &part);
+  void count_drag(int i, double time);
+  void set_maxexchange();
   void settle_impulse(int i);
 
   void find_kicks(Moment moment);
@@ -145,12 +192,14 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix = nullptr;
-  std::uint64_t listed_fixes = 0;
   // by local index; empty: there are none
   std::vector<unsigned char> what;
   std::vector<Load> loads;
   std::vector<Rest> rest;
-  std::vector<Kick> kicks;    // in the order of the script
+  std::vector<int> partners;    // who has put something, by number, in the order of their first
+  std::vector<Layer> layers;    // of two or more, else none
+  std::vector<int> gone;        // partners that were closed
+  std::vector<Kick> kicks;      // in the order of the script
   int frozen_bits = 0;
 };
 

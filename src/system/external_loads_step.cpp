@@ -110,8 +110,7 @@ void ExternalLoads::act_on(int i, const ParticleState &particles, Moment moment)
   const Kick *const kick = kick_of(i);
   const bool has_read = kick && kick->has_read;
   if (moment == Moment::BETWEEN_STEPS && has_read) return;
-  if (moment == Moment::STEP && has(i, DUE) && kick)
-    add_to_row(kick->at_start, loads[i].drag, loads[i].impulse);
+  if (moment == Moment::STEP && has(i, DUE) && kick) count_drag(i, kick->at_start);
   unset(i, ADDED | DUE);
   if (has(i, HEAT) && moment == Moment::STEP) atom->heatflow[i] += rest[i].heat;
   if (has(i, FORCE | TORQUE | DRAG) && !has_read) add(i, particles, kick, moment);
@@ -151,8 +150,7 @@ void ExternalLoads::add(int i, const ParticleState &particles, const Kick *kick,
   if (has(i, FORCE)) add_to_row(1.0, load.force, sum);
   if (has(i, DRAG)) {
     find_drag(i, particles.v(i), sum, kick);
-    if (moment == Moment::STEP)
-      add_to_row(kick ? kick->at_end : update->dt, load.drag, load.impulse);
+    if (moment == Moment::STEP) count_drag(i, kick ? kick->at_end : update->dt);
     add_to_row(1.0, load.drag, sum);
   }
   if (!kick) return;

@@ -73,6 +73,7 @@ int FixContactStore::setmask()
 
 void FixContactStore::init()
 {
+  if (system) system->definitions().are_listed();
   // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;

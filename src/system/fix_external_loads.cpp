@@ -2,8 +2,6 @@
 
 #include "system/fix_external_loads.h"
 
-#include "system/definitions.h"
-
 #include "atom.h"
 #include "error.h"
 #include "update.h"
@@ -17,9 +15,10 @@ FixExternalLoads::FixExternalLoads(LAMMPS *lmp, int narg, char **arg) :
   if (narg != 3 || !utils::strmatch(id, "^TALUS_LOADS$"))
     error->all(FLERR, "Fix EXTERNAL_LOADS is internal to Talus");
   create_attribute = 1;
-  maxexchange = Talus::ExternalLoads::size_packed;
+  maxexchange_dynamic = 1;
   atom->add_callback(Atom::GROW);
   loads().take_fix(this);
+  maxexchange = loads().most_packed();
 }
 
 FixExternalLoads::~FixExternalLoads()
@@ -35,7 +34,7 @@ int FixExternalLoads::setmask()
 
 void FixExternalLoads::init()
 {
-  loads().lists_are_of(Talus::digest_of_fixes(*lmp));
+  system->definitions().are_listed();
   if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
     error->all(FLERR,
                "Forces, drag or heat that another program has put on particles do not act with "

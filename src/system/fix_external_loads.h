@@ -37,6 +37,8 @@ class FixExternalLoads : public Fix, public Talus::SystemFix {
   // SystemFix
   std::string needs_arrays() override { return loads().needs_arrays(); }
   bool adds_forces() const override { return true; }
+  void exchange_state(Talus::StateExchange &x) override { loads().exchange_state(x); }
+  void state_is_restored() override { loads().state_is_restored(); }
 
  private:
   Talus::ExternalLoads &loads() { return system->external_loads(); }

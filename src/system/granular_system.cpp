@@ -48,8 +48,8 @@ GranularSystem::GranularSystem(LAMMPS *lmp) :
     Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
     contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
     energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
-    proxies(lmp, exchange_switch), gravity(lmp, *this), loads_of_others(lmp, *this),
-    record_steps(lmp, *this, movers), lists(lmp), largest_move(lmp)
+    proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers),
+    lists(lmp), largest_move(lmp), set_up_with(lmp, *this), loads_of_others(lmp, *this)
 {
   contact_pipeline.emplace();
 }

@@ -21,6 +21,7 @@
 #include "particles/particle_state.h"
 #include "system/contact_monitor.h"
 #include "system/contact_range.h"
+#include "system/definitions.h"
 #include "system/effective_masses.h"
 #include "system/energy_account.h"
 #include "system/exchange_switch.h"
@@ -96,6 +97,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   ExchangeSwitch &exchange() { return exchange_switch; }
   StepsInRecords &steps_in_records() { return record_steps; }
   MadeLists &made_lists() { return lists; }
+  /// With what the last run was set up.
+  Definitions &definitions() { return set_up_with; }
 
   /// Particles that are not spheres, nullptr: all are. Their fix registers in its constructor and
   /// unregisters in its destructor. false: there is one already.
@@ -253,13 +256,14 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
   SystemShapes *shaped = nullptr;
   Weights gravity;
-  ExternalLoads loads_of_others;
   StepsInRecords record_steps;
   MadeLists lists;
   std::shared_ptr<const ContactPipeline::Lists> given_pairs;
   bool stays_in_records = false;    // after this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
   LargestMove largest_move;
+  Definitions set_up_with;
+  ExternalLoads loads_of_others;
 };
 
 }    // namespace Talus

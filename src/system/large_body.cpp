@@ -268,6 +268,7 @@ bool LargeBody::accounts() const
 
 void LargeBody::for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit)
 {
+  if (region && !region->is_there()) return;
   contacts.for_each_contact(*body_shape, *frame, view(), update->dt, requested, visit);
   if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, requested, visit);
 }

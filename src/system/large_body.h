@@ -23,6 +23,7 @@
 #include "body/shape/large_body_shape.h"
 #include "laws/given_law.h"
 #include "system/effective_masses.h"
+#include "system/region_handle.h"
 #include "vtk/poly_data.h"
 
 #include "pointers.h"
@@ -31,6 +32,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +65,8 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   void set_shape(std::unique_ptr<LargeBodyShape> shape);
   LargeBodyShape &shape() { return *body_shape; }
+  /// That the shape asks; at the start of a run. It may be gone between two runs.
+  void set_region(const RegionHandle &asked) { region = asked; }
   void set_law(int type, const ContactSpec &spec);
   bool has_law(int type) const { return spec_is_set[type]; }
   /// Programs may ask where it is, and steer it.
@@ -127,9 +131,11 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all
   /// that follow.
-  void watch(const Vector3<double> &point);
+  /// By one of several, by number; the point is that of the last one.
+  void watch(const Vector3<double> &point, int watcher);
   bool is_watched() const { return impulses.has_value(); }
-  void unwatch() { impulses.reset(); }
+  /// Its last watcher ends it.
+  void unwatch(int watcher);
   /// When a step begins and the body has not moved yet.
   void begin_step();
   /// Between two steps, up to the velocities that particles have; to be read, begun anew or saved.
@@ -216,6 +222,9 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   static constexpr int size_digits = 6 * ExactSum::size;
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;
+
+  std::optional<RegionHandle> region;
+  std::set<int> watchers;    ///< while there are impulses
 };
 
 }    // namespace Talus

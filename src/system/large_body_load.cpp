@@ -82,9 +82,15 @@ const BodyLoad &LargeBody::load()
 
 /* The load that is there may not have been summed exactly: the next one is the first that counts. */
 
-void LargeBody::watch(const Vector3<double> &point)
+void LargeBody::watch(const Vector3<double> &point, int watcher)
 {
   impulses.emplace(point);
+  watchers.insert(watcher);
+}
+
+void LargeBody::unwatch(int watcher)
+{
+  if (watchers.erase(watcher) && watchers.empty()) impulses.reset();
 }
 
 /* With the velocities that contacts of second order see, or that the work of others counts with. */

@@ -16,6 +16,8 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include "fmt/format.h"
+
 #include <algorithm>
 
 using namespace LAMMPS_NS;
@@ -33,6 +35,7 @@ void SavedLists::save()
   if (!system.shapes()) pairs = system.pair_lists();
   step = neighbor->lastcall;
   decomposition = present_decomposition();
+  comm_style = comm->style;
   box = DomainBox::of(*domain);
   box_of_lists = number ? made.box() : box;
   particles = digest_of_particles();
@@ -70,6 +73,16 @@ bool SavedLists::on_all_ranks(bool here) const
   int all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, world);
   return all != 0;
+}
+
+/* Ghosts come in another order. */
+
+std::string SavedLists::reason_against_restoring() const
+{
+  if (comm->style == comm_style) return "";
+  const auto name = [](int style) { return style == Comm::BRICK ? "brick" : "tiled"; };
+  return fmt::format("comm_style is {} now and was {} when the snapshot was made: set it back",
+                     name(comm->style), name(comm_style));
 }
 
 bool SavedLists::are_present() const

@@ -20,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Talus {
@@ -32,6 +33,8 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   SavedLists(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner);
 
   void save();
+  /// "", or why these lists cannot be made again, and the cure.
+  std::string reason_against_restoring() const;
   /// The instance still has these lists, and the same particles at the same places of its arrays.
   bool are_present() const;
   /// Before particles come back: decomposition and box of then.
@@ -65,6 +68,7 @@ class SavedLists : protected LAMMPS_NS::Pointers {
       pairs;    ///< between spheres; those with shapes are found anew
   LAMMPS_NS::bigint number = 0, step = -1;
   Decomposition decomposition;
+  int comm_style = 0;
   DomainBox box;
   DomainBox box_of_lists;
   std::uint64_t particles = 0;      // digest of owned ones and ghosts

@@ -55,7 +55,8 @@ void Snapshot::save()
 std::string Snapshot::reason_against_restoring(const GranularSystem &into) const
 {
   if (instance.lock().get() != &into) return "the snapshot is of another instance of LAMMPS";
-  return fixes.reason_against_restoring();
+  const std::string of_fixes = fixes.reason_against_restoring();
+  return of_fixes.empty() ? lists.reason_against_restoring() : of_fixes;
 }
 
 void Snapshot::restore() const

@@ -29,6 +29,8 @@ class SystemRunStyle {
   virtual std::string reason_for_stock() const = 0;
   /// Neighbor lists have been made between two runs, not by it.
   virtual void lists_are_made() = 0;
+  /// A run with this object has been set up: it has no other way to know of what it calls.
+  virtual bool was_set_up() const = 0;
 
  protected:
   ~SystemRunStyle() = default;    // never deleted through this interface

@@ -103,7 +103,7 @@ bool is_composite(const Region &region)
   return std::strcmp(region.style, "union") == 0 || std::strcmp(region.style, "intersect") == 0;
 }
 
-static std::string variable_of_more_than_time(LAMMPS *lmp)
+std::map<std::string, int> equal_style_variables(LAMMPS *lmp)
 {
   Variable &all = *lmp->input->variable;
 #if TALUS_HOST_TELLS_FORMULAS
@@ -113,8 +113,16 @@ static std::string variable_of_more_than_time(LAMMPS *lmp)
   const int count = all.nvar;
   const auto name = [&all](int n) { return all.names[n]; };
 #endif
+  std::map<std::string, int> found;
   for (int n = 0; n < count; n++)
-    if (all.equalstyle(n) && !reads_only_time(lmp, name(n))) return name(n);
+    if (all.equalstyle(n)) found[name(n)] = n;
+  return found;
+}
+
+static std::string variable_of_more_than_time(LAMMPS *lmp)
+{
+  for (const auto &[name, index] : equal_style_variables(lmp))
+    if (!reads_only_time(lmp, name)) return name;
   return "";
 }
 

@@ -5,6 +5,7 @@
 #ifndef TALUS_SYSTEM_TIME_FORMULA_H
 #define TALUS_SYSTEM_TIME_FORMULA_H
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ bool reads_only_time(LAMMPS_NS::LAMMPS *lmp, const std::string &variable);
 /// The same of the text of a formula, apart from the variables in it, whose names are added to
 /// `variables`.
 bool formula_reads_only_time(const std::string &formula, std::vector<std::string> &variables);
+
+/// All variables of this style, and where LAMMPS has them.
+std::map<std::string, int> equal_style_variables(LAMMPS_NS::LAMMPS *lmp);
 
 /// Made of other regions.
 bool is_composite(const LAMMPS_NS::Region &region);
