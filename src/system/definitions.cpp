@@ -75,7 +75,7 @@ std::uint64_t Definitions::digest_of_particles(int begin, int end) const
   return digest.value();
 }
 
-void Definitions::will_be_mixed()
+void Definitions::laws_will_be_made()
 {
   laws_are_known = then.laws == system.laws().revision();
 }

@@ -32,10 +32,10 @@ class Definitions : protected LAMMPS_NS::Pointers {
  public:
   Definitions(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
-  /// LAMMPS lists the fixes that act, for whatever command: in each of its init(). And before, when that of the
-  /// pair style begins, which may mix coefficients again.
+  /// LAMMPS lists the fixes that act, for whatever command: in each of its init(). And before that of the pair style
+  /// makes coefficients of the script's words again.
   void are_listed();
-  void will_be_mixed();
+  void laws_will_be_made();
   /// A run has been set up.
   void are_set_up();
   /// It has ended, which may have added or deleted particles; or a snapshot is restored.

@@ -115,7 +115,6 @@ std::string GranularSystem::reason_of_pair_style() const
 
 void GranularSystem::init_pair_style()
 {
-  set_up_with.will_be_mixed();
   run_contacts.keep();
   neighbor_source.init(pair);
   gravity.forget();

@@ -67,8 +67,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   void set_shape(std::unique_ptr<LargeBodyShape> shape);
   LargeBodyShape &shape() { return *body_shape; }
-  /// That the shape asks; at the start of a run. It may be gone between two runs.
-  void set_region(const RegionHandle &asked) { region = asked; }
   void set_law(int type, const ContactSpec &spec);
   /// In place of all laws: those of pairs with this type of particles, as they are when a run begins.
   void set_type_of_laws(int type) { type_of_laws = type; }
@@ -239,7 +237,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;
 
-  std::optional<RegionHandle> region;
   std::set<int> watchers;    ///< while there are impulses
   int type_of_laws = 0;     ///< whose pairs have the laws; 0: `specs` are the laws
   std::string announced;    ///< last description of the laws in the log

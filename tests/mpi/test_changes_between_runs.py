@@ -93,6 +93,29 @@ CASES = {
     "timestep": ("timestep 4e-4", ON),
     "dump": ("write_dump all custom there id x", ON),
 }
+TILES = """
+units lj
+atom_style sphere
+newton off
+boundary f f f
+comm_modify vel yes
+region box block -6 6 -6 6 -6 6
+create_box 1 box
+lattice sc 1.05
+region r block -3 3 -3 3 -3 3
+create_atoms 1 region r
+set group all diameter 1
+velocity all create 0.1 4242 loop geom
+pair_style gran/hooke/history 1e5 NULL 50 NULL 0.5 1
+pair_coeff * *
+fix s all nve/sphere
+{proxy}comm_style tiled
+balance 1.0 rcb
+change_box all x final -6.5 6
+timestep 5e-4
+run 100
+write_dump all custom tiles id x y z vx vy vz fx fy fz modify format float %.17g
+"""
 DRIVER = """
 import re, sys
 from lammps import lammps
@@ -156,6 +179,15 @@ class ChangesBetweenRuns(CoupledCase):
                                                    read_dump(there.format("nothing"))[0], COLUMNS), 1e-9)
                 self.assertIn("egion around" if name == "region gone" else "", later)
                 self.assertEqual(later == "", name != "region gone", later)
+
+    def test_box_that_changes_after_tiles(self):
+        """Where tiles are is asked for by change_box already, of an object that is not that of the run."""
+        for np in 2, 4:
+            frames = []
+            for words, proxy in (((), ""), (("-sf", "talus"), ""), (("-sf", "talus"), "comm_proxy no\n")):
+                self.run_lammps(TILES.format(proxy=proxy), np=np, arguments=words)
+                frames.append(read_dump(self.path("tiles"))[0])
+                self.assertLess(max_difference(frames[0], frames[-1], COLUMNS[:6]), 1e-9)
 
     def test_styles_of_lammps(self):
         for np in 1, 2:
