@@ -211,7 +211,7 @@ def of_the_host(rng, periodic=False, moves=True):
     else:
         physics.append(line("fix step all nve/sphere"))
     fall = line("fix fall all gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
-    physics.insert(len(physics) - rng.choice((0, 1)), fall)    # behind the integrator, or before it
+    physics.insert(len(physics) - (1 if in_clumps else rng.choice((0, 1))), fall)    # behind rigid/small it acts from another step on
     boundary, cluster = _boundary(rng, periodic), bodies.Cluster(found)
     if not periodic:
         for n in range(rng.choice((0, 1, 2))):
