@@ -130,8 +130,9 @@ def spheres(rng, periodic=False, moves=True):
     fall = line("gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
     order = "order 2" if second else rng.choice(("", "start half"))
     physics.append(line("fix step all nve/sphere/symplectic", order.split(), rng.choice((fall, ()))))
-    boundary = _boundary(rng, periodic)
+    boundary, traits = _boundary(rng, periodic), {"order 2"} if second else set()
     if periodic and rng.random() < 0.3:
+        traits.add("deform")
         k = boundary.split().index("p")
         physics.append(line("fix squeeze all deform 1", "xyz"[k], "erate", number(rng.uniform(-0.5, 0.5), 0, 0, -1), "remap",
                             rng.choice(("x", "x", "v"))))
@@ -140,7 +141,7 @@ def spheres(rng, periodic=False, moves=True):
     def contact():
         return law(normal if materials or second else rng.choice(laws.NORMALS[:3]))
 
-    return _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=("order 2",) if second else ())
+    return _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=traits)
 
 
 def _with_bodies(rng, found, physics, boundary, types, contact, moves=True, traits=(), columns=(), start=(), kinds=None):
@@ -211,7 +212,7 @@ def of_the_host(rng, periodic=False, moves=True):
     else:
         physics.append(line("fix step all nve/sphere"))
     fall = line("fix fall all gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
-    physics.insert(len(physics) - rng.choice((0, 1)), fall)    # behind the integrator, or before it
+    physics.insert(len(physics) - (1 if in_clumps else rng.choice((0, 1))), fall)    # behind rigid/small it acts from another step on
     boundary, cluster = _boundary(rng, periodic), bodies.Cluster(found)
     if not periodic:
         for n in range(rng.choice((0, 1, 2))):

@@ -43,12 +43,25 @@ class Session:
     def save(self, name):
         self.saved[name] = self.partner.save()
 
+    def snapshot(self, name):
+        if name not in self.saved:
+            raise RuntimeError(f"the session has no snapshot {name}")
+        return self.saved[name]
+
+    def discard(self, name):
+        self.snapshot(name).discard()
+        del self.saved[name]
+
     def put_state(self, fix, *numbers):
         *state, steps = map(float, numbers)
         self.partner.body(fix).put_state(state, int(steps))
 
     def open_other(self):
         self.other = self.other or Partner(self.lmp)
+
+    def other_forces(self, tag, *force):
+        self.open_other()
+        self.other.put_forces([int(tag)], _three(force))
 
     def close_other(self):
         if self.other:
@@ -74,13 +87,13 @@ def _three(numbers):
 CALLS = {
     "advance": lambda session, steps: session.partner.advance(int(steps)),
     "save": Session.save,
-    "restore": lambda session, name: session.partner.restore(session.saved[name]),
-    "discard": lambda session, name: session.saved.pop(name).discard(),
+    "restore": lambda session, name: session.partner.restore(session.snapshot(name)),
+    "discard": Session.discard,
     "set_up": lambda session: session.partner.set_up(),
     "close": Session.close_partner,
     "put_forces": lambda session, tag, *force: session.partner.put_forces([int(tag)], _three(force)),
     "other": Session.open_other,
-    "other_forces": lambda session, tag, *force: session.other.put_forces([int(tag)], _three(force)),
+    "other_forces": Session.other_forces,
     "other_close": Session.close_other,
     "abort": lambda session: os.abort(),    # for tests of the pool
     "sleep": lambda session, seconds: time.sleep(float(seconds)),
