@@ -191,7 +191,6 @@ void FixLargeBody::follow_region()
   const std::string refusal = RegionShape::refusal(*region, motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
   shape->replace(region, *domain);
-  body.set_region(shape->handle());
   if (motion.has_own()) return;
   motion.follow(*region, shape->reference_point());
   body.set_frame(&motion.frame(), motion.moves());

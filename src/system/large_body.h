@@ -24,7 +24,6 @@
 #include "laws/given_law.h"
 #include "material/contact_spec.h"
 #include "system/effective_masses.h"
-#include "system/region_handle.h"
 #include "vtk/poly_data.h"
 
 #include "pointers.h"
