@@ -38,13 +38,6 @@ void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
       contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
 }
 
-/* Between two runs. */
-
-void FixWallGranRegionTalus::for_each_contact(ContactData requested, const VisitContact &visit)
-{
-  if (wall.is_there()) AcceleratedWall::for_each_contact(requested, visit);
-}
-
 void FixWallGranRegionTalus::write_restart(FILE *file)
 {
   if (domain->get_region_by_id(idregion) != region)

@@ -20,7 +20,6 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   {
   }
   void write_restart(FILE *file) override;
-  void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override;
 
  protected:
   bigint stock_size(const double *data) const override;
