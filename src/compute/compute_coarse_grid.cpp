@@ -259,7 +259,7 @@ void ComputeCoarseGrid::add_volume(const Vector3<double> &x, double volume)
 void ComputeCoarseGrid::add_contacts()
 {
   contacts.for_each([&](const ContactReport &c) {
-    const Vector3<double> x = row(atom->x[c.i]), meeting = x + c.arm[0];
+    const Vector3<double> &x = c.center[0], meeting = x + c.arm[0];
     if (atom->mask[c.i] & groupbit) add_branch(x, meeting, c.force);
     if (c.j >= 0 && (atom->mask[c.j] & groupbit)) add_branch(meeting - c.arm[1], meeting, -c.force);
   });

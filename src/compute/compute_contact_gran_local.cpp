@@ -147,17 +147,15 @@ bool ComputeContactGranLocal::is_chosen(const ContactReport &one) const
 ComputeContactGranLocal::Row ComputeContactGranLocal::row_of(const ContactReport &one) const
 {
   const bool with_body = one.body >= 0, swapped = !with_body && atom->tag[one.i] > atom->tag[one.j];
-  const int i = swapped ? one.j : one.i;
   const double sign = swapped ? -1.0 : 1.0;
   const auto put = [](const Talus::Vector3<double> &v, double(&to)[3]) {
     to[0] = v.x;
     to[1] = v.y;
     to[2] = v.z;
   };
-  const double *x = atom->x[i];
-  const Talus::Vector3<double> center{x[0], x[1], x[2]}, point = center + one.arm[swapped];
+  const Talus::Vector3<double> &center = one.center[swapped], point = center + one.arm[swapped];
   Row row{};
-  row.id[0] = static_cast<double>(atom->tag[i]);
+  row.id[0] = static_cast<double>(atom->tag[swapped ? one.j : one.i]);
   row.id[1] = with_body ? 0.0 : static_cast<double>(atom->tag[swapped ? one.i : one.j]);
   row.body = one.body + 1;
   row.part = one.part + 1;

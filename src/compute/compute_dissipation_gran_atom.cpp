@@ -84,6 +84,11 @@ void ComputeDissipationGranAtom::add_springs(double **to, double sign) const
 void ComputeDissipationGranAtom::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
+  if (!work_by_particle())
+    error->all(FLERR,
+               "Compute dissipation/gran/atom: its internal fix {} has been deleted: remove the "
+               "unfix command",
+               store_id);
   if (atom->nmax > nmax) {
     nmax = atom->nmax;
     memory->grow(array_atom, nmax, size, "dissipation/gran/atom:energy");

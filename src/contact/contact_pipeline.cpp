@@ -148,7 +148,7 @@ void ContactPipeline::take_back_histories(HistoryStore &from)
 
 void ContactPipeline::exchange_contacts(StateExchange &x)
 {
-  x(particles.position, particles.motion);
+  x(dt, lag, particles.position, particles.motion);
   AlignedVector<ChangeRecord> changes = particles.change;
   x(changes);
   if (changes.size() == particles.change.size()) particles.change.swap(changes);
@@ -207,14 +207,14 @@ void ContactPipeline::keep_history(HistoryStore &to, HistoryStore::Scope scope, 
 
 void ContactPipeline::compute(const ParticleView &arrays, const ContactStep &step)
 {
-  start_step();
+  start_step(step);
   for (int phase = 0; phase < work.num_phases(); phase++) run_phase(arrays, step, phase);
   end_step(arrays, step);
 }
 
 void ContactPipeline::compute_early(const ParticleView &arrays, const ContactStep &step)
 {
-  start_step();
+  start_step(step);
   run_phase(arrays, step, 0);
 }
 
@@ -224,8 +224,10 @@ void ContactPipeline::compute_late(const ParticleView &arrays, const ContactStep
   end_step(arrays, step);
 }
 
-void ContactPipeline::start_step()
+void ContactPipeline::start_step(const ContactStep &step)
 {
+  dt = step.dt;
+  lag = step.lag;
   if (!particles.has_room()) make_room();
   deferred.begin_step();
 }

@@ -157,10 +157,9 @@ class ContactPipeline {
   double early_share() const;
 
   /// visit(contact) for each contact of the last compute(), with the state that it found and the
-  /// history after it, while the pairs are there. `dt`, `lag`: of that step, see ContactStep.
+  /// history after it, while the pairs are there.
   using VisitContact = std::function<void(const ContactReport &)>;
-  void for_each_contact(double dt, double lag, ContactData requested,
-                        const VisitContact &visit) const;
+  void for_each_contact(ContactData requested, const VisitContact &visit) const;
   /// Of the contacts of the last compute() the one with the largest overlap over the smaller
   /// radius.
   DeepestContact deepest_contact() const;
@@ -190,14 +189,14 @@ class ContactPipeline {
     std::int64_t pair;
   };
   Place place_of(int i, int j) const;
-  ContactReport report_of(const ContactChunk &chunk, std::int64_t pair, double dt, double lag,
+  ContactReport report_of(const ContactChunk &chunk, std::int64_t pair,
                           ContactData requested) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
   void find_types(const int *type);
   void make_chunks();
   void make_room();
-  void start_step();
+  void start_step(const ContactStep &step);
   void end_step(const ParticleView &arrays, const ContactStep &step);
   void write_state(int atom, const ParticleView &arrays) const;
   void write_forces(int atom, const ParticleView &arrays) const;
@@ -227,6 +226,7 @@ class ContactPipeline {
   std::shared_ptr<const Lists> kept_lists;
   double release_threshold = Talus::release_threshold;
   bool pairs_known = false;
+  double dt = 0.0, lag = 0.0;    // of the last compute(), see ContactStep
   int threads = 1;
   int next_threads = 1;
   bool next_in_phases = false;

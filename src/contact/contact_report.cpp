@@ -46,8 +46,8 @@ double ContactPipeline::early_share() const
 
 /* Rolling and twisting as in ContactChunk::gather_for_twisting(). */
 
-ContactReport ContactPipeline::report_of(const ContactChunk &chunk, std::int64_t pair, double dt,
-                                         double lag, ContactData requested) const
+ContactReport ContactPipeline::report_of(const ContactChunk &chunk, std::int64_t pair,
+                                         ContactData requested) const
 {
   const int i = chunk.pairs.first[pair], j = chunk.pairs.second[pair];
   const Record &xi = particles.position[i], &xj = particles.position[j];
@@ -81,6 +81,8 @@ ContactReport ContactPipeline::report_of(const ContactChunk &chunk, std::int64_t
   found.i = order.atom_of_slot[i];
   found.j = order.atom_of_slot[j];
   found.share = order.share(i, j);
+  found.center[0] = three(xi);
+  found.center[1] = three(xj);
   found.normal = s.normal;
   found.overlap = s.overlap;
   const int row = chunk.row_of_pair(scene, pair);
@@ -90,13 +92,11 @@ ContactReport ContactPipeline::report_of(const ContactChunk &chunk, std::int64_t
   return found;
 }
 
-void ContactPipeline::for_each_contact(double dt, double lag, ContactData requested,
-                                       const VisitContact &visit) const
+void ContactPipeline::for_each_contact(ContactData requested, const VisitContact &visit) const
 {
   if (!pairs_known) return;
   for (const ContactChunk &chunk : chunks)
-    chunk.for_each_contact(
-        [&](std::int64_t pair) { visit(report_of(chunk, pair, dt, lag, requested)); });
+    chunk.for_each_contact([&](std::int64_t pair) { visit(report_of(chunk, pair, requested)); });
 }
 
 double ContactPipeline::squared_distance(int slot_a, int slot_b) const

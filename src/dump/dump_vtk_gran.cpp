@@ -226,8 +226,8 @@ VtkPolyData DumpVtkGran::contacts()
   contact_list->contacts.for_each([&](const ContactReport &c) {
     const bool with_body = c.j < 0;
     if (!is_chosen(c.i) || (!with_body && !is_chosen(c.j))) return;
-    const double *x = atom->x[c.i], normal_force = dot(c.force, c.normal);
-    const Vector3<double> begin{x[0], x[1], x[2]}, meeting = begin + c.arm[0];
+    const double normal_force = dot(c.force, c.normal);
+    const Vector3<double> &begin = c.center[0], meeting = begin + c.arm[0];
     lines.add_point(begin);
     lines.add_point(with_body ? meeting : meeting - c.arm[1]);
     strength.add(normal_force);

@@ -87,7 +87,7 @@ void FillRegion::command(int narg, char **arg)
         count, solid / volume, region_id, reached, steps, limit,
         steps == most_steps ? " or more steps" : "");
   create_spheres(lmp, made, type, density);
-  if (domain->nonperiodic == 2) enlarge_box();
+  enlarge_box(made);
   if (comm->me == 0)
     utils::logmesg(lmp,
                    "fill_region: {} spheres in region {}, solid fraction {:.6g} of its volume "
@@ -95,11 +95,25 @@ void FillRegion::command(int narg, char **arg)
                    count, region_id, solid / volume, volume, reached, steps);
 }
 
-/* Where it is shrink-wrapped. Particles may be of ranks far away then. */
+/* Beyond faces that are shrink-wrapped, by no more than is needed: other commands may want the rest of it before the first
+   run. Particles may be of ranks far away then. */
 
-void FillRegion::enlarge_box()
+void FillRegion::enlarge_box(const std::vector<KnownSphere> &made)
 {
-  domain->reset_box();
+  bool larger = false;
+  for (const KnownSphere &sphere : made) {
+    const double x[3] = {sphere.x.x, sphere.x.y, sphere.x.z};
+    for (int d = 0; d < 3; d++) {
+      const bool below = domain->boundary[d][0] >= 2 && x[d] < domain->boxlo[d],
+                 above = domain->boundary[d][1] >= 2 && x[d] >= domain->boxhi[d];
+      if (below) domain->boxlo[d] = x[d] - sphere.radius;
+      if (above) domain->boxhi[d] = x[d] + sphere.radius;
+      larger = larger || below || above;
+    }
+  }
+  if (!larger) return;
+  domain->set_global_box();
+  domain->set_local_box();
   Irregular(lmp).migrate_atoms(1);
 }
 

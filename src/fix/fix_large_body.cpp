@@ -6,6 +6,7 @@
 #include "fix/region_shape.h"
 
 #include "system/command_words.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -167,6 +168,7 @@ int FixLargeBody::setmask()
 
 void FixLargeBody::init()
 {
+  Talus::require_intact_particles(lmp);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix large/body does not run with run_style respa: use run_style verlet");
   motion.init();
@@ -189,7 +191,6 @@ void FixLargeBody::follow_region()
   const std::string refusal = RegionShape::refusal(*region, motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", id, refusal);
   shape->replace(region, *domain);
-  body.set_region(shape->handle());
   if (motion.has_own()) return;
   motion.follow(*region, shape->reference_point());
   body.set_frame(&motion.frame(), motion.moves());

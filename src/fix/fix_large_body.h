@@ -62,11 +62,7 @@ class FixLargeBody : public Fix,
   // SystemFix
   std::string needs_arrays() override;
   bool is_touched() const override { return true; }
-  void add_to(Talus::StateDigest &digest) const override;
-  void for_each_contact(Talus::ContactData requested, const VisitContact &visit) override
-  {
-    body.for_each_contact(requested, visit);
-  }
+  void for_each_contact(const VisitContact &visit) const override { body.for_each_contact(visit); }
 
   void exchange_state(Talus::StateExchange &x) override;
   bool exchanges_all() const override { return true; }

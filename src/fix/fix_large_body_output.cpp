@@ -4,8 +4,6 @@
 
 #include "fix/fix_large_body.h"
 
-#include "base/state_digest.h"
-
 #include "atom.h"
 #include "comm.h"
 #include "force.h"
@@ -27,19 +25,6 @@ double FixLargeBody::compute_vector(int n)
   const BodyFrame &frame = motion.frame();
   frame.state.to_array(state);
   return state[n - 6];
-}
-
-void FixLargeBody::add_to(StateDigest &digest) const
-{
-  double state[BodyState::size];
-  motion.frame().state.to_array(state);
-  digest.add(state, BodyState::size);
-  if (const MovingVertices *moving = motion.frame().vertices)
-    for (int v = 0; v < moving->num_own(); v++) {
-      const Vector3<double> &x = moving->place(v);
-      const double place[3] = {x.x, x.y, x.z};
-      digest.add(place, 3);
-    }
 }
 
 double FixLargeBody::compute_scalar()

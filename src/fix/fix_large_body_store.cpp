@@ -135,6 +135,7 @@ int FixLargeBody::pack_restart(int i, double *buf)
 void FixLargeBody::unpack_restart(int i, int nth)
 {
   const double *data = particle_data(lmp, std::string("Fix large/body ") + id, i, nth);
+  if (!data) return;
   if (ubuf(*data++).i != atom->tag[i])
     error->one(FLERR,
                "Fix large/body {}: particles were deleted or renumbered between read_restart and "

@@ -1,6 +1,7 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
 
 #include "fix_rigid_small_talus.h"
+#include "system/restart_data.h"
 
 #include "plain_style.h"
 
@@ -62,6 +63,7 @@ void FixRigidSmallTalus::post_constructor()
 
 void FixRigidSmallTalus::init()
 {
+  Talus::require_intact_particles(lmp);
   FixRigidSmall::init();
   const int mine = restored;    // a rank without particles has not been told
   int from_file = 0;

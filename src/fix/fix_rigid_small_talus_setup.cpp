@@ -320,6 +320,7 @@ void FixRigidSmallTalus::unpack_restart(int i, int nth)
 {
   const double *const row =
       Talus::particle_data(lmp, std::string("Fix ") + style + " " + id, i, nth);
+  if (!row) return;
   const tagint tag = static_cast<tagint>(ubuf(row[0]).i);
   if (tag == no_setup) return;
   if (!restored) {    // the constructor has looked for bodies on its own

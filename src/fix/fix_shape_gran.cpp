@@ -8,6 +8,7 @@
 #include "shaped/shape_list.h"
 #include "system/command_words.h"
 #include "system/fix_contact_store.h"
+#include "system/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -87,6 +88,7 @@ int FixShapeGran::setmask()
 
 void FixShapeGran::init()
 {
+  Talus::require_intact_particles(lmp);
   set_sizes(0, atom->nlocal);
   orient_new(0, atom->nlocal);
   check_scene();

@@ -85,7 +85,6 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
 
   // SystemFix
   std::string needs_arrays() override;
-  void add_to(Talus::StateDigest &digest) const override;
   bool integrates() const override { return true; }
   bool places_particles() const override { return true; }
   bool moves_particle(int i) const override;
@@ -107,10 +106,7 @@ class FixShapeGran : public Fix, public Talus::SystemShapes {
   void compute_contacts(const Talus::ContactStep &step) override;
   Talus::BodyLoad touch_body(Talus::LargeBody &body, const Talus::BodyStep &step) override;
   bool keeps_change_of(int i) const override { return moves_particle(i); }
-  void for_each_contact_of_pairs(Talus::ContactData requested,
-                                 const VisitContact &visit) const override;
-  void for_each_contact_of_body(Talus::LargeBody &body, Talus::ContactData requested,
-                                const VisitContact &visit) const override;
+  void for_each_contact_of_pairs(const VisitContact &visit) const override;
   void for_each_triangle(const VisitTriangle &visit) const override;
   Talus::DeepestContact deepest_contact() const override;
   Talus::DeepestContact deepest_since_rebuild() const override { return pairs.deepest_since_set(); }

@@ -4,7 +4,6 @@
 
 #include "fix/fix_shape_gran.h"
 
-#include "base/state_digest.h"
 #include "fix/orientations.h"
 #include "system/command_words.h"
 #include "system/lammps_compat.h"
@@ -56,11 +55,6 @@ double FixShapeGran::compute_vector(int n)
   return sums()[n];
 }
 
-void FixShapeGran::add_to(StateDigest &digest) const
-{
-  if (atom->nlocal) digest.add(quat[0], 4L * atom->nlocal);
-}
-
 /* The words behind the keyword; of the command line those before it are missing. */
 
 static Words words_of_modify(LAMMPS *lmp, int narg, char **arg)
@@ -110,18 +104,9 @@ int FixShapeGran::add_to_picture(int narg, char **arg)
 
 /* ---- contacts, pictures ---- */
 
-void FixShapeGran::for_each_contact_of_pairs(ContactData requested, const VisitContact &visit) const
+void FixShapeGran::for_each_contact_of_pairs(const VisitContact &visit) const
 {
-  pairs.for_each_contact(system->law_table(), update->dt, requested, visit);
-}
-
-void FixShapeGran::for_each_contact_of_body(LargeBody &body, ContactData requested,
-                                            const VisitContact &visit) const
-{
-  const auto wall = walls.find(&body);
-  if (wall == walls.end() || !wall->second.points) return;
-  wall->second.points->for_each_contact(body.present_frame(), view(), body.law_table(), update->dt,
-                                        requested, visit);
+  pairs.for_each_contact(system->pipeline().law_table(), visit);
 }
 
 void FixShapeGran::for_each_triangle(const VisitTriangle &visit) const

@@ -145,6 +145,7 @@ int FixShapeGran::pack_restart(int i, double *buf)
 void FixShapeGran::unpack_restart(int i, int nth)
 {
   const double *data = particle_data(lmp, std::string("Fix shape/gran ") + id, i, nth);
+  if (!data) return;
   if (ubuf(*data++).i != atom->tag[i])
     error->one(FLERR,
                "Fix shape/gran {}: particles were deleted or renumbered between read_restart and "

@@ -63,7 +63,8 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   {
     contacts.history.put_aside();
     Stock::init();
-    is_listed = has_forces = false;
+    require_intact_particles(this->lmp);
+    is_listed = false;
     stock_reason = find_reason_for_stock();
     if (!stock_reason.empty()) return;
     wall_law.take(*this->model, this->atom->ntypes);
@@ -78,19 +79,23 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   void post_force(int vflag) override
   {
+    for_outputs.forget();
     if (!stock_reason.empty()) {
       Stock::post_force(vflag);
       return;
     }
-    of_snapshot.clear();
     place();
     list_if_needed();
-    if (keeps_contacts()) this->clear_stored_contacts();
     add_contacts();
-    has_forces = true;
+    if (!this->peratom_flag || !system->may_be_asked()) return;
+    this->clear_stored_contacts();
+    for_outputs.for_each([this](const ContactReport &one) { keep_contact(one); });
   }
 
-  double memory_usage() override { return Stock::memory_usage() + contacts.memory_usage(); }
+  double memory_usage() override
+  {
+    return Stock::memory_usage() + contacts.memory_usage() + for_outputs.memory_usage();
+  }
 
   // Particles get other indices, leave or come, or are written into a restart file.
   void copy_arrays(int from, int to, int remove) override
@@ -121,9 +126,10 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   void unpack_restart(int i, int nth) override
   {
     contacts.history.put_aside();
-    if (this->use_history)
-      stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
-                          [this](const double *data) { return stock_size(data); });
+    if (this->use_history &&
+        !stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
+                             [this](const double *data) { return stock_size(data); }))
+      return;
     Stock::unpack_restart(i, nth);
   }
   int size_restart(int i) override
@@ -138,30 +144,13 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
-  /// Histories come with the particles. Contacts, where someone asks for them, are told from here until the
-  /// next step.
-  void exchange_state(StateExchange &x) override
-  {
-    std::vector<ContactReport> last;
-    if (!x.restores() && system->account().has_observers())
-      for_each_contact(ContactData::ALL,
-                       [&last](const ContactReport &one) { last.push_back(one); });
-    x(last);
-    if (x.restores()) of_snapshot = std::move(last);
-  }
-  void state_is_restored() override { is_listed = has_forces = false; }
+  /// Histories come with the particles.
+  void exchange_state(StateExchange &x) override { x(for_outputs); }
+  void state_is_restored() override { is_listed = false; }
   bool adds_forces() const override { return true; }
   bool is_touched() const override { return true; }
   /// Of a wall that is not accelerated there are none.
-  void for_each_contact(ContactData requested, const VisitContact &visit) override
-  {
-    for (const ContactReport &one : of_snapshot) visit(one);
-    if (!has_forces) return;
-    place();
-    const WallStep wall = step_of_wall();
-    contacts.for_each_contact(surface(), at_rest, system->particles(), this->update->dt, requested,
-                              visit, &wall);
-  }
+  void for_each_contact(const VisitContact &visit) const override { for_outputs.for_each(visit); }
   std::string needs_arrays() override
   {
     if (!stock_reason.empty()) return stock_reason;
@@ -175,6 +164,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
  protected:
   std::shared_ptr<GranularSystem> system;
   BodyContacts contacts;
+  ComputedContacts for_outputs;
   WallLaw wall_law;
 
   /// Of these data of a particle in a restart file: what the stock class would write, -1 if it cannot be.
@@ -201,13 +191,6 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   }
 
  private:
-  /// Forces by particle are kept for output.
-  bool keeps_contacts() const
-  {
-    return this->peratom_flag && (system->particles().is_in_arrays() ||
-                                  system->steps_in_records().fix_calls().somebody_looks());
-  }
-
   /// Particles and wall together may go as far as the skin.
   bool is_stale(double moved) const
   {
@@ -257,8 +240,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   void add_contacts()
   {
     constexpr std::size_t worth_a_thread = 100;    // candidates
-    WallStep wall = step_of_wall();
-    if (keeps_contacts()) wall.computed = [this](const ContactReport &one) { keep_contact(one); };
+    const WallStep wall = step_of_wall();
     const bool accounts = system->account().is_asked();
     WorkAccount account;
     if (accounts) account = system->account().part_of_step();
@@ -268,6 +250,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
         contacts.num_candidates() / worth_a_thread, 1, this->comm->nthreads));
     step.account = accounts ? &account : nullptr;
     step.wall = &wall;
+    if (system->may_be_asked()) step.for_outputs = &for_outputs;
     contacts.compute(surface(), at_rest, system->particles(), step);
     if (accounts) system->account().add(account.sum);
   }
@@ -275,10 +258,9 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   void keep_contact(const ContactReport &one)
   {
     double *row = this->array_atom[one.i];
-    const double *x = system->particles().x(one.i);
-    const Vector3<double> &force = one.force, &arm = one.arm[0];
-    const double values[8] = {1.0,          force.x,      force.y,      force.z,
-                              x[0] + arm.x, x[1] + arm.y, x[2] + arm.z, this->atom->radius[one.i]};
+    const Vector3<double> &force = one.force, point = one.center[0] + one.arm[0];
+    const double values[8] = {1.0,     force.x, force.y, force.z,
+                              point.x, point.y, point.z, this->atom->radius[one.i]};
     std::copy(values, values + 8, row);
     if (this->size_peratom_cols > 8) row[8] = one.heat_flow;
   }
@@ -286,12 +268,10 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   const BodyFrame at_rest{};
   const char *plain_style;
   std::string stock_reason;
-  bool has_forces = false;    // of a step
   bool is_listed = false;
   int owned_then = 0;    // when particles were listed
   double moved_then = 0.0;
   std::vector<double> masses;    // by particle, or empty
-  std::vector<ContactReport> of_snapshot;
 
   std::string find_reason_for_stock() const
   {

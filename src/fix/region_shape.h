@@ -24,7 +24,6 @@ class RegionShape : public Talus::LargeBodyShape {
   /// Regions may be deleted and defined again between runs: tell the shape at the start of each.
   const std::string &region_id() const { return id; }
   void replace(Region *now, const Domain &domain);
-  const Talus::RegionHandle &handle() const { return region; }
 
   /// Why a region cannot be a body, or "". `moves`: the body has a motion of its own.
   static std::string refusal(Region &region, bool moves);

@@ -50,6 +50,15 @@ void report_contact(const ContactLaw &law, const ContactCoefficients &row,
   to.stored.resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
 }
 
+EnergyByCause stored_energy(const ContactLaw &law, const ContactCoefficients &row,
+                            const ContactState<double> &state, double dt,
+                            const HistoryValues &history)
+{
+  ContactReport found;
+  report_contact(law, row, state, dt, history, ContactData::ENERGIES, found);
+  return found.stored;
+}
+
 ContactState<double> state_of_lane(const ContactBatch &b, int k)
 {
   ContactState<double> s;

@@ -57,6 +57,8 @@ struct ContactReport {
   int body = -1;         ///< number of the large body, in the order of the script, from 0; or -1
   int part = -1;         ///< of the large body; -1 without parts
   double share = 1.0;    ///< 1/2 if another rank has this contact as well, else 1
+  /// Of the particles, where they were when the force was found; the second only of two particles.
+  Vector3<double> center[2]{};
   Vector3<double> normal{};    ///< from the second body to the first
   double overlap = 0.0;        ///< length; negative of contacts that last beyond zero
   Vector3<double> force{};     ///< on the first body
@@ -91,6 +93,11 @@ enum class ContactData : bool { ENERGIES, ALL };
 void report_contact(const ContactLaw &law, const ContactCoefficients &coefficients,
                     const ContactState<double> &state, double dt, const HistoryValues &history,
                     ContactData requested, ContactReport &to);
+
+/// Of these the stored energy alone.
+EnergyByCause stored_energy(const ContactLaw &law, const ContactCoefficients &coefficients,
+                            const ContactState<double> &state, double dt,
+                            const HistoryValues &history);
 
 /// A vector of one lane of a batch.
 inline Vector3<double> lane_of(const double (&v)[3][ContactBatch::width], int lane)

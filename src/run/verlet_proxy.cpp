@@ -108,11 +108,7 @@ void VerletProxy::go_on_without_set_up()
 {
   const std::string change = system->definitions().change_with_particles();
   if (!change.empty())
-    error->all(
-        FLERR,
-        "Run style {}: 'run ... pre no' goes on with what the last run has set up, but {} since: "
-        "leave 'pre no' out",
-        update->integrate_style, change);
+    error->all(FLERR, "Run: leave 'pre no' out: {} since the last set-up", change);
   needs_lists = system->definitions().have_other_ghosts();
 }
 

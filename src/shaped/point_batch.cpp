@@ -85,26 +85,19 @@ void PointBatch::hand_out(PointContact &point, int lane) const
     for (int k = 0; k < point_history_size; k++) point.history[k] = batch.history[k][lane];
 }
 
-ContactReport PointBatch::report(const PointContact &point, const LawTable &laws, double dt,
-                                 ContactData requested)
+ComputedContact PointBatch::contact_of(const PointContact &point)
 {
-  ContactState<double> state;
-  state.normal = point.normal;
-  state.overlap = point.overlap;
-  state.velocity = point.velocity;
-  state.inverse_mass = point.inverse_mass;
-  state.inverse_radius = point.inverse_radius;
-  ContactReport found;
-  found.normal = point.normal;
-  found.overlap = point.overlap;
-  HistoryValues history{};
-  std::copy(point.history.begin(), point.history.end(), history.begin());
-  report_contact(laws.law(point.row), laws.coefficients(point.row), state, dt, history, requested,
-                 found);
-  found.force = point.weight * found.force;
-  found.torque_per_radius = found.twisting_torque = {0.0, 0.0, 0.0};
-  found.stored.normal *= point.energy;
-  found.stored.tangential *= point.weight;
+  ComputedContact found;
+  found.state.normal = found.report.normal = point.normal;
+  found.state.overlap = found.report.overlap = point.overlap;
+  found.state.velocity = point.velocity;
+  found.state.inverse_mass = point.inverse_mass;
+  found.state.inverse_radius = point.inverse_radius;
+  found.row = point.row;
+  found.weight = point.weight;
+  found.energy = point.energy;
+  found.report.force = point.force;
+  std::copy(point.history.begin(), point.history.end(), found.report.history.begin());
   return found;
 }
 

@@ -8,6 +8,7 @@
 #ifndef TALUS_SHAPED_POINT_BATCH_H
 #define TALUS_SHAPED_POINT_BATCH_H
 
+#include "body/contact/computed_contacts.h"
 #include "material/law_table.h"
 #include "shaped/point_contact.h"
 
@@ -29,10 +30,9 @@ class PointBatch {
   /// Forces and histories of all points. What a point yields does not depend on the others.
   void compute(const Task &task, PointContact *points, std::size_t count);
 
-  /// Report of a point between steps, with the signs of its first body: what does not depend on the
-  /// identity of the bodies. `dt`: of the step.
-  static ContactReport report(const PointContact &point, const LawTable &laws, double dt,
-                              ContactData requested);
+  /// What compute() has left of a point, with the signs of its first body and in its axes: all that
+  /// does not depend on the identity of the bodies.
+  static ComputedContact contact_of(const PointContact &point);
 
   /// "" or why points of shapes cannot have this law, and the cure, as text for messages. Not asked
   /// about laws of second order, which no integrator may use then.

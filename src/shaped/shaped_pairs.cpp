@@ -160,6 +160,7 @@ void ShapedPairs::receive(const std::vector<double> &message, ContactLists &to) 
 void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const Step &step)
 {
   if (list.empty()) return;
+  dt = step.dt;
   while (static_cast<int>(scratch.size()) < step.threads)
     scratch.push_back(std::make_unique<Scratch>());
   place_solids(view, step.threads);
@@ -337,22 +338,24 @@ void ShapedPairs::account(WorkAccount &to) const
 
 /* ---------------------------------------------------------------------- */
 
-void ShapedPairs::for_each_contact(const LawTable &laws, double dt, ContactData requested,
-                                   const VisitContact &visit) const
+void ShapedPairs::for_each_contact(const LawTable &laws, const VisitContact &visit) const
 {
   for (const Chunk &chunk : chunks)
     for (std::size_t n = 0; n < chunk.points.size(); n++) {
       const Pair &pair = list[chunk.pair_of_point[n]];
       const PointContact &point = chunk.points[n];
-      ContactReport found = PointBatch::report(point, laws, dt, requested);
+      ComputedContact one = PointBatch::contact_of(point);
+      ContactReport &found = one.report;
       found.i = pair.first;
       found.j = pair.second;
       found.share = share(pair);
-      found.arm[0] = point.place - solids[pair.first].center();
-      found.arm[1] = point.place - solids[pair.second].center();
+      found.center[0] = solids[pair.first].center();
+      found.center[1] = solids[pair.second].center();
+      found.arm[0] = point.place - found.center[0];
+      found.arm[1] = point.place - found.center[1];
       found.torque[0] = cross(found.arm[0], found.force);
       found.torque[1] = -cross(found.arm[1], found.force);
-      visit(found);
+      visit(one.with_energy(laws, dt));
     }
 }
 

@@ -63,7 +63,7 @@ class ShapedPairs {
   void compute(const ShapedView &view, const LawTable &laws, const Step &step);
 
   /// For snapshots: points of all pairs, which are the same when they are restored.
-  void exchange_state(StateExchange &x) { x(list, results, chunks); }
+  void exchange_state(StateExchange &x) { x(list, results, chunks, solids, dt); }
 
   /// Of the last compute(): visit(i, j, force on i, i is owned, j is owned) for pairs that touch.
   template <class Visit> void for_each_force(Visit visit) const
@@ -81,10 +81,9 @@ class ShapedPairs {
       }
   }
 
-  /// visit(contact) for the same, with their present history. `dt`: of that step.
-  using VisitContact = std::function<void(const ContactReport &)>;
-  void for_each_contact(const LawTable &laws, double dt, ContactData requested,
-                        const VisitContact &visit) const;
+  /// visit(contact) for the same. `laws`: of that step.
+  using VisitContact = ComputedContacts::VisitContact;
+  void for_each_contact(const LawTable &laws, const VisitContact &visit) const;
 
   /// The pair of rounded particles whose cores overlapped most since set_pairs(): by how much
   /// (length; 0: none), over the smaller of both radii, and local indices of both.
@@ -158,6 +157,7 @@ class ShapedPairs {
 
   const ShapeTable &shapes;
   int owned = 0;
+  double dt = 0.0;    ///< of the last compute()
   std::vector<Pair> list;
   std::vector<Result> results;
   std::vector<Chunk> chunks;

@@ -65,6 +65,7 @@ BodyLoad WallPoints::compute(const BodySurfaces &surfaces, const BodyFrame &fram
     }
   });
   if (step.account) account(*step.account);
+  if (step.for_outputs) record_contacts(task);
   BodyLoad load;
   for (const Chunk &chunk : chunks) {
     load.add(chunk.load);
@@ -228,21 +229,22 @@ void WallPoints::add_forces(const Task &task, Chunk &chunk) const
   }
 }
 
-void WallPoints::for_each_contact(const BodyFrame &frame, const ShapedView &view,
-                                  const LawTable &laws, double dt, ContactData requested,
-                                  const VisitContact &visit) const
+void WallPoints::record_contacts(const Task &task) const
 {
+  const BodyFrame &frame = task.frame;
   for (const Chunk &chunk : chunks)
     for (std::size_t k = 0; k < chunk.points.size(); k++) {
       const PointContact &point = chunk.points[k];
-      ContactReport found = PointBatch::report(point, laws, dt, requested);
-      found.part = frame.vertices ? frame.vertices->own_triangle(point.part) : point.part;
-      found.i = particles[chunk.of_point[k]];
-      found.normal = frame.to_space(found.normal);
-      found.force = frame.to_space(found.force);
-      found.arm[0] = frame.point_to_space(point.place) - view.position(found.i);
-      found.torque[0] = cross(found.arm[0], found.force);
-      visit(found);
+      ComputedContact one = PointBatch::contact_of(point);
+      ContactReport &to = one.report;
+      to.i = particles[chunk.of_point[k]];
+      to.part = frame.vertices ? frame.vertices->own_triangle(point.part) : point.part;
+      to.normal = frame.to_space(to.normal);
+      to.force = frame.to_space(to.force);
+      to.center[0] = task.view.position(to.i);
+      to.arm[0] = frame.point_to_space(point.place) - to.center[0];
+      to.torque[0] = cross(to.arm[0], to.force);
+      task.step.for_outputs->add(one);
     }
 }
 

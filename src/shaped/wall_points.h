@@ -18,7 +18,6 @@
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,11 +42,6 @@ class WallPoints {
   /// Adds forces and torques; returns what the body bears.
   BodyLoad compute(const BodySurfaces &surfaces, const BodyFrame &frame, const ShapedView &view,
                    const LawTable &laws, const BodyStep &step);
-  /// visit(contact) for each point of the last compute(), with its present history; its large
-  /// body has no number. Positions of particles and body are still those of that step.
-  using VisitContact = std::function<void(const ContactReport &)>;
-  void for_each_contact(const BodyFrame &frame, const ShapedView &view, const LawTable &laws,
-                        double dt, ContactData requested, const VisitContact &visit) const;
   /// Since set_particles(), over the radius of the largest sphere inside of the particle.
   DeepestInBody deepest() const;
   double memory_usage() const;
@@ -75,6 +69,7 @@ class WallPoints {
   void find_points(const Task &task, Chunk &chunk, int n, std::size_t &old) const;
   void add_forces(const Task &task, Chunk &chunk) const;
   void account(WorkAccount &to) const;
+  void record_contacts(const Task &task) const;
   static void see_vertices(const Task &task, PointContact &point);
   static Vector3<double> change_seen(const Task &task, int i, const Vector3<double> &place);
 

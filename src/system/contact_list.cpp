@@ -86,6 +86,8 @@ void ContactList::visit_pair(int i, int neighbor_of_i, const VisitContact &visit
   ContactReport c;
   c.i = i;
   c.j = j;
+  c.center[0] = {a[0], a[1], a[2]};
+  c.center[1] = {b[0], b[1], b[2]};
   c.normal = (1.0 / std::sqrt(rsq)) * separation;
   c.overlap = atom->radius[i] + atom->radius[j] - std::sqrt(rsq);
   c.force = over_distance * separation +

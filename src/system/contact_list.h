@@ -41,8 +41,8 @@ class ContactList : protected LAMMPS_NS::Pointers {
   bool is_known() const;
 
   /// Calls visit for each contact once, on one rank; its second particle may be a ghost. Of pairs
-  /// of styles of LAMMPS only particles, normal, overlap, force and arms are set. Positions of
-  /// ghosts must be up to date, as they are in steps that LAMMPS looks at. Collective.
+  /// of styles of LAMMPS only particles, their centers, normal, overlap, force and arms are set, and
+  /// positions of ghosts must be up to date, as they are in steps that LAMMPS looks at. Collective.
   using VisitContact = std::function<void(const ContactReport &)>;
   void for_each(const VisitContact &visit) const;
 

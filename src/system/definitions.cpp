@@ -75,9 +75,15 @@ std::uint64_t Definitions::digest_of_particles(int begin, int end) const
   return digest.value();
 }
 
+void Definitions::laws_will_be_made()
+{
+  laws_are_known = then.laws == system.laws().revision();
+}
+
 void Definitions::are_listed()
 {
   listed = present_fixes();
+  if (laws_are_known) then.laws = system.laws().revision();
 }
 
 void Definitions::are_set_up()

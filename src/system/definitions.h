@@ -32,8 +32,10 @@ class Definitions : protected LAMMPS_NS::Pointers {
  public:
   Definitions(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
-  /// LAMMPS lists the fixes that act, for whatever command: in each of its init().
+  /// LAMMPS lists the fixes that act, for whatever command: in each of its init(). And before that of the pair style
+  /// makes coefficients of the script's words again.
   void are_listed();
+  void laws_will_be_made();
   /// A run has been set up.
   void are_set_up();
   /// It has ended, which may have added or deleted particles; or a snapshot is restored.
@@ -74,8 +76,8 @@ class Definitions : protected LAMMPS_NS::Pointers {
   bool on_any_rank(bool here) const;
 
   GranularSystem &system;
-  List listed;    // fixes
-  bool is_set_up = false;
+  List listed;                                       // fixes
+  bool is_set_up = false, laws_are_known = false;    // the second: in an init()
   SetUp then;
 };
 

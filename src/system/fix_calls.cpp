@@ -191,6 +191,8 @@ void FixCalls::start_run()
     if (calls & END_OF_STEP && only_reads(fix)) readers.push_back(fix);
     if (std::strcmp(fix->style, "GROUP") == 0) groups.push_back(fix);
   }
+  asking_groups = std::any_of(groups.begin(), groups.end(),
+                              [this](Fix *fix) { return !reads_positions_alone(fix); });
   // Those that move particles come first: their forces are cleared on the way through the records,
   // which may begin with the last integrator of Talus. They have no particle in common with it.
   std::stable_partition(initial.begin(), initial.end(),

@@ -34,6 +34,8 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   static bool only_reads(const LAMMPS_NS::Fix *fix);
   /// One of these reads particles at the end of the present step.
   bool somebody_looks() const;
+  /// What decides on members of a dynamic group may ask for anything in any step.
+  bool groups_may_ask() const { return asking_groups; }
 
   /// At the start of a run, after all of them were asked.
   void start_run();
@@ -77,6 +79,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   GranularSystem &system;
   Phase initial, post, forces, final;               // of this run
   std::vector<LAMMPS_NS::Fix *> groups, readers;    // that are dynamic; at the end of a step
+  bool asking_groups = false;
 };
 
 }    // namespace Talus

@@ -6,6 +6,7 @@
 #include "system/granular_system.h"
 #include "system/system_run_style.h"
 #include "system/system_shapes.h"
+#include "system/restart_data.h"
 
 #include "base/in_parallel.h"
 #include "particles/canonical_key.h"
@@ -83,6 +84,7 @@ void FixContactStore::init()
                  "pair_style command up",
                  Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
   }
+  Talus::require_intact_particles(lmp);
   next_reneighbor = next_refresh(update->ntimestep);
   keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();

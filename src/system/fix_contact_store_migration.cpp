@@ -243,8 +243,9 @@ int FixContactStore::pack_restart(int i, double *buf)
 void FixContactStore::unpack_restart(int i, int nth)
 {
   const std::string command = command_name(lmp);
-  const double *const head = Talus::particle_data(lmp, command, i, nth),
-                      *const data = head - Talus::size_particle_head;
+  const double *const head = Talus::particle_data(lmp, command, i, nth);
+  if (!head) return;
+  const double *const data = head - Talus::size_particle_head;
   keys[i] = from_double<std::uint64_t>(head[0]);
   if (from_double<std::int64_t>(head[2]) != atom->tag[i])
     error->one(FLERR,

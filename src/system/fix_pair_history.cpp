@@ -56,7 +56,7 @@ int FixPairHistory::pack_restart(int i, double *buf)
   }
   buf[0] = static_cast<double>(to - buf);
   buf[1] = static_cast<double>(contacts.size());
-  return Talus::append_digest(buf);
+  return static_cast<int>(to - buf);
 }
 
 void FixPairHistory::unpack_restart(int i, int nth)
@@ -67,6 +67,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
         const bool is_count = data[1] >= 0.0 && data[1] <= atom->nextra_store;
         return is_count ? header + stock_entry() * static_cast<bigint>(data[1]) : -1;
       });
+  if (!from) return;
   const int contacts = static_cast<int>(from[1]);
   from += header;
   Talus::HistoryStore &store = system->store()->histories();
@@ -97,14 +98,13 @@ void FixPairHistory::take_even_values_of(int partner, tagint tag, Talus::History
 int FixPairHistory::size_restart(int i)
 {
   return header +
-         stock_entry() * static_cast<int>(system->store()->histories().contacts_of(i).size()) +
-         Talus::size_of_digest;
+         stock_entry() * static_cast<int>(system->store()->histories().contacts_of(i).size());
 }
 
 int FixPairHistory::maxsize_restart()
 {
   const int contacts = system->store()->histories().largest_count(atom->nlocal);
-  int mine = header + stock_entry() * contacts + Talus::size_of_digest, most = 0;
+  int mine = header + stock_entry() * contacts, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;
 }

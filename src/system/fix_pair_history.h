@@ -7,8 +7,7 @@
 // in the file (see FixContactStore).
 //
 // Of each particle: number of doubles, of contacts, and for each contact the tag of the partner (as
-// the bits of a double) and its values as the particle sees them; behind them a digest, which the stock
-// style does not write and does not read.
+// the bits of a double) and its values as the particle sees them.
 //
 // The history of rolling and twisting is the same for both particles. The stock style writes
 // it with a minus for the one that does not own the pair in its neighbor list, and reads it at the

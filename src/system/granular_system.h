@@ -172,6 +172,13 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// LAMMPS after it, which then receive forces. `tallied`: energies or virials are asked for in
   /// it.
   bool begin_forces(LAMMPS_NS::bigint step, bool tallied);
+  /// Outputs may ask for what the forces of the present step are: LAMMPS looks at it, a fix that
+  /// reads at its end, or a group. Whoever computes forces keeps them for that.
+  bool may_be_asked() const
+  {
+    const FixCalls &calls = record_steps.fix_calls();
+    return !stays_in_records || calls.somebody_looks() || calls.groups_may_ask();
+  }
   /// Updates the proxies, after begin_forces(); pending on return if `overlap`.
   void update_proxies(bool overlap);
   /// Around the pair style in a step in the records: other sub-styles of a hybrid one find particles

@@ -193,8 +193,9 @@ std::string LargeBody::needs_arrays() const
   return "";
 }
 
-BodyStep LargeBody::step_of(bool advance)
+BodyStep LargeBody::begin_forces(bool advance)
 {
+  for_outputs.forget();
   BodyStep step;
   step.dt = update->dt;
   step.lag = system.integrators().lag();
@@ -205,13 +206,14 @@ BodyStep LargeBody::step_of(bool advance)
   step.exact = sums_exactly() ? &exact : nullptr;
   step.touched = touched;
   step.corners = corners;
+  if (system.may_be_asked()) step.for_outputs = &for_outputs;
   return step;
 }
 
 bool LargeBody::join_step()
 {
   joined = (comm->nthreads == 1 || body_shape->thread_safe()) &&
-           contacts.begin_static(*body_shape, *frame, view(), step_of(true));
+           contacts.begin_static(*body_shape, *frame, view(), begin_forces(true));
   return joined;
 }
 
@@ -230,7 +232,7 @@ void LargeBody::compute(bool advance, double *virial)
       list_particles();
       seen_between = seen;
     }
-    BodyStep step = step_of(advance);
+    BodyStep step = begin_forces(advance);
     step.virial = virial;
     mine = contacts.compute(*body_shape, *frame, view(), step);
     if (system.shapes()) mine.add(system.shapes()->touch_body(*this, step));
@@ -251,7 +253,8 @@ void LargeBody::compute(bool advance, double *virial)
 void LargeBody::exchange_state(StateExchange &x)
 {
   finish_reduction();
-  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated, impulses);
+  x(mine, total, reduced, total_is_known, exact, has_forces, dissipated, last_dissipated, impulses,
+    for_outputs);
   x.array(digits_here, size_digits);
   x.array(digits_of_all, size_digits);
   contacts.history.exchange_state(x);
@@ -275,13 +278,6 @@ bool LargeBody::accounts() const
   return is_asked || was_asked || system.account().is_asked();
 }
 
-void LargeBody::for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit)
-{
-  if (region && !region->is_there()) return;
-  contacts.for_each_contact(*body_shape, *frame, view(), update->dt, requested, visit);
-  if (system.shapes()) system.shapes()->for_each_contact_of_body(*this, requested, visit);
-}
-
 /* Work that went into a spring is stored there, or lost: both count here. So does the work of the
    whole normal force of contacts that end by pull-off. */
 
@@ -299,9 +295,8 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated + system.account().counted_of_last_step() * last_dissipated, all;
-  for_each_contact(ContactData::ENERGIES, [&](const ContactReport &one) {
-    here += one.stored.normal - one.stored.detaching;
-  });
+  for_each_contact(
+      [&](const ContactReport &one) { here += one.stored.normal - one.stored.detaching; });
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

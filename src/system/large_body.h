@@ -24,7 +24,6 @@
 #include "laws/given_law.h"
 #include "material/contact_spec.h"
 #include "system/effective_masses.h"
-#include "system/region_handle.h"
 #include "vtk/poly_data.h"
 
 #include "pointers.h"
@@ -67,8 +66,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
   void set_shape(std::unique_ptr<LargeBodyShape> shape);
   LargeBodyShape &shape() { return *body_shape; }
-  /// That the shape asks; at the start of a run. It may be gone between two runs.
-  void set_region(const RegionHandle &asked) { region = asked; }
   void set_law(int type, const ContactSpec &spec);
   /// In place of all laws: those of pairs with this type of particles, as they are when a run begins.
   void set_type_of_laws(int type) { type_of_laws = type; }
@@ -161,13 +158,16 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   double energy();
   /// It is.
   bool accounts() const;
-  /// visit(contact) for those of the last step on this rank, once its forces have been computed.
-  void for_each_contact(ContactData requested, const BodyContacts::VisitContact &visit);
+  /// visit(contact) for those of the last step on this rank, see SystemFix::for_each_contact().
+  void for_each_contact(const ComputedContacts::VisitContact &visit) const
+  {
+    for_outputs.for_each(visit);
+  }
   /// On this rank, now and when particles were listed again between two rebuilds.
   BodyFindings find_worst();
   /// Collective, see set_picture(): the surface as it is now.
   VtkPolyData picture() const { return make_picture(); }
-  double memory_usage() const { return contacts.memory_usage(); }
+  double memory_usage() const { return contacts.memory_usage() + for_outputs.memory_usage(); }
 
   /// sqrt(m/k) (time) of a particle of this type, mass and radius against the body, with the
   /// stiffness at this overlap; 0 without stiffness.
@@ -180,7 +180,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
 
  private:
   ParticleState view() const;
-  BodyStep step_of(bool advance);
+  BodyStep begin_forces(bool advance);
   const int *mask_of_spheres();
   Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
@@ -213,6 +213,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   bool with_history = false;
   int order_of_history = 0;    ///< of the integrator, by whose laws it is; 0: not known
   BodyContacts contacts;
+  ComputedContacts for_outputs;
   std::vector<int> spheres;     ///< see mask_of_spheres()
   BodyFindings seen_between;    ///< before particles were listed again within a step
   LAMMPS_NS::EffectiveMasses masses;
@@ -235,7 +236,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   std::int64_t digits_here[size_digits] = {}, digits_of_all[size_digits] = {};
   MPI_Request reduction = MPI_REQUEST_NULL;
 
-  std::optional<RegionHandle> region;
   std::set<int> watchers;    ///< while there are impulses
   int type_of_laws = 0;     ///< whose pairs have the laws; 0: `specs` are the laws
   std::string announced;    ///< last description of the laws in the log

@@ -92,8 +92,9 @@ std::uint64_t digest_of(const Region &region)
 {
   StateDigest digest;
   for (const char *c = region.style; *c; c++) digest.add(static_cast<std::uint64_t>(*c));
-  for (const int number : {region.interior, region.openflag, region.varshape, region.moveflag,
-                           region.rotateflag, region.bboxflag, region.nregion, region.cmax})
+  for (const int number :
+       {region.interior, region.openflag, region.varshape, region.moveflag, region.rotateflag,
+        region.bboxflag, region.cmax, is_composite(region) ? region.nregion : 0})
     digest.add(static_cast<std::uint64_t>(number));
   if (region.dynamic || region.varshape) return digest.value();
   if (region.bboxflag)

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 
 using namespace LAMMPS_NS;
 
@@ -157,6 +158,13 @@ const double *find_particle_data(const Atom &atom, int i, int nth)
   return nullptr;
 }
 
+/// Commands, by instance, with data that are damaged, until it is told.
+std::map<LAMMPS *, std::string> &damaged()
+{
+  static std::map<LAMMPS *, std::string> commands;
+  return commands;
+}
+
 }    // namespace
 
 int complete_particle_data(double *buf, int size)
@@ -170,9 +178,10 @@ const double *particle_data(LAMMPS *lmp, const std::string &command, int i, int 
 {
   const double *const found = find_particle_data(*lmp->atom, i, nth);
   const int size = found ? static_cast<int>(found[0]) - size_particle_head : -1;
-  if (size < 0 || !is_same(found[1], digest_of(found[0], found + size_particle_head, size)))
-    lmp->error->one(FLERR, "{}: {}", command, problem);
-  return found + size_particle_head;
+  if (size >= 0 && is_same(found[1], digest_of(found[0], found + size_particle_head, size)))
+    return found + size_particle_head;
+  damaged()[lmp] = command;
+  return nullptr;
 }
 
 int append_digest(double *buf)
@@ -195,8 +204,24 @@ const double *stock_particle_data(LAMMPS *lmp, const std::string &command, int i
         of_stock == size || (of_stock + size_of_digest == size &&
                              is_same(found[size - 1], digest_of(found[0], found + 1, size - 2)));
   }
-  if (!intact) lmp->error->one(FLERR, "{}: {}", command, problem);
-  return found;
+  if (intact) return found;
+  damaged()[lmp] = command;
+  return nullptr;
+}
+
+void require_intact_particles(LAMMPS *lmp)
+{
+  const auto mine = damaged().find(lmp);
+  int from = mine == damaged().end() ? lmp->comm->nprocs : lmp->comm->me;
+  MPI_Allreduce(MPI_IN_PLACE, &from, 1, MPI_INT, MPI_MIN, lmp->world);
+  if (from == lmp->comm->nprocs) return;
+  std::string command = mine == damaged().end() ? "" : mine->second;
+  damaged().erase(lmp);
+  int size = static_cast<int>(command.size());
+  MPI_Bcast(&size, 1, MPI_INT, from, lmp->world);
+  command.resize(size);
+  MPI_Bcast(command.data(), size, MPI_CHAR, from, lmp->world);
+  lmp->error->all(FLERR, "{}: {}", command, problem);
 }
 
 }    // namespace Talus

@@ -37,7 +37,8 @@ std::string restart_data_of_fix(LAMMPS_NS::LAMMPS *lmp, const std::string &comma
 /// they are complete, and are `size` together, which is returned.
 constexpr int size_particle_head = 2;
 int complete_particle_data(double *buf, int size);
-/// For unpack_restart(): those of the local particle i, behind the head.
+/// For unpack_restart(): those of the local particle i, behind the head; nullptr if they are damaged, which
+/// require_intact_particles() tells.
 const double *particle_data(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int i, int nth);
 
 /// The same in the format of a style of LAMMPS, which does not read what is behind its own data: there is the digest. To
@@ -49,6 +50,10 @@ int append_digest(double *buf);
 using StockSize = std::function<LAMMPS_NS::bigint(const double *)>;
 const double *stock_particle_data(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int i,
                                   int nth, const StockSize &stock_size);
+
+/// An error if a rank has found damaged data of particles. Collective, for init() of all that ask for such data: what one
+/// rank says alone may be lost.
+void require_intact_particles(LAMMPS_NS::LAMMPS *lmp);
 
 }    // namespace Talus
 

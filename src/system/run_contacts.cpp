@@ -25,8 +25,9 @@ namespace Talus {
 namespace {
 
 constexpr const char *kept_are_old = "Pair style {}: contacts of the last run cannot be "
-                                     "listed, for particles or bodies have been added, deleted, "
-                                     "changed or sent to other ranks since: use 'run 0' before";
+                                     "listed, for particles or bodies have been added, deleted "
+                                     "or sent to other ranks since, as by displace_atoms and "
+                                     "change_box: use 'run 0' before";
 
 }    // namespace
 
@@ -46,13 +47,13 @@ void RunContacts::for_each(ContactData requested, const VisitContact &visit) con
 void RunContacts::visit_all(ContactData requested, const VisitContact &visit) const
 {
   if (system.pipeline().num_particles() == atom->nlocal + atom->nghost)
-    system.pipeline().for_each_contact(update->dt, system.integrators().lag(), requested, visit);
-  if (system.shapes()) system.shapes()->for_each_contact_of_pairs(requested, visit);
+    system.pipeline().for_each_contact(requested, visit);
+  if (const SystemShapes *shapes = system.shapes()) shapes->for_each_contact_of_pairs(visit);
   int number = 0;
   for (const auto &fix : fix_list(*modify)) {
-    auto *talus_fix = SystemFix::of(fix);
+    const auto *talus_fix = SystemFix::of(static_cast<const Fix *>(fix));
     if (!talus_fix || !talus_fix->is_touched()) continue;
-    talus_fix->for_each_contact(requested, [&](ContactReport one) {
+    talus_fix->for_each_contact([&](ContactReport one) {
       one.body = number;
       visit(one);
     });
@@ -99,33 +100,29 @@ ContactReport RunContacts::at_present(const KeptContact &one) const
   return now;
 }
 
-/* As far as contacts of the last step depend on it. */
+/* By the local indices of particles, and the order of bodies. */
 
-std::uint64_t RunContacts::digest_of_state() const
+std::uint64_t RunContacts::digest_of_owners() const
 {
   StateDigest digest;
-  digest.add(static_cast<std::uint64_t>(update->ntimestep));
-  digest.add(update->dt);
-  const int owned = atom->nlocal, all = owned + atom->nghost;
+  const int all = atom->nlocal + atom->nghost;
+  digest.add(static_cast<std::uint64_t>(atom->nlocal));
   for (int i = 0; i < all; i++) digest.add(static_cast<std::uint64_t>(atom->tag[i]));
-  for (int i = 0; i < owned; i++) digest.add(static_cast<std::uint64_t>(atom->type[i]));
-  for (const double *values : {atom->radius, atom->rmass}) digest.add(values, owned);
-  if (owned)
-    for (double **rows : {atom->x, atom->v, atom->omega}) digest.add(rows[0], 3L * owned);
-  for (const auto &fix : fix_list(*modify))
-    if (const auto *talus_fix = SystemFix::of(fix)) {
-      digest.add(static_cast<std::uint64_t>(talus_fix->is_touched()));
-      talus_fix->add_to(digest);
-    }
+  for (const auto &fix : fix_list(*modify)) {
+    const auto *talus_fix = SystemFix::of(fix);
+    if (!talus_fix || !talus_fix->is_touched()) continue;
+    for (const char *c = fix->id; *c; c++) digest.add(static_cast<std::uint64_t>(*c));
+    digest.add(std::uint64_t{0});
+  }
   return digest.value();
 }
 
-/* Pairs and states stay until the next set-up, and contacts are found on request. */
+/* Pairs and states stay until the next set-up. */
 
 void RunContacts::end_run()
 {
   digest_after_run.reset();
-  if (system.account().has_observers()) digest_after_run = digest_of_state();
+  if (system.account().has_observers()) digest_after_run = digest_of_owners();
 }
 
 /* What bodies and walls know may be of particles that are gone. */
@@ -137,7 +134,7 @@ void RunContacts::require_those_of_last_run() const
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",
                system.style_name());
-  if (*digest_after_run != digest_of_state()) error->one(FLERR, kept_are_old, system.style_name());
+  if (*digest_after_run != digest_of_owners()) error->one(FLERR, kept_are_old, system.style_name());
 }
 
 /* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the
@@ -146,7 +143,7 @@ void RunContacts::require_those_of_last_run() const
 void RunContacts::keep()
 {
   if (update->whichflag != 0 || kept || !digest_after_run) return;
-  if (*digest_after_run != digest_of_state()) return;    // those who ask will be told
+  if (*digest_after_run != digest_of_owners()) return;    // those who ask will be told
   std::vector<KeptContact> all;
   visit_all(ContactData::ALL, [&](const ContactReport &one) {
     all.push_back({one, {atom->tag[one.i], one.j < 0 ? 0 : atom->tag[one.j]}});
@@ -159,12 +156,13 @@ void RunContacts::keep()
 
 void RunContacts::exchange_state(StateExchange &x)
 {
-  bool known = !x.restores() && !kept && digest_after_run && *digest_after_run == digest_of_state();
+  bool known =
+      !x.restores() && !kept && digest_after_run && *digest_after_run == digest_of_owners();
   x(known);
   if (x.restores()) forget();
   if (!known) return;
   system.exchange_contacts(x);
-  if (x.restores()) digest_after_run = digest_of_state();
+  if (x.restores()) digest_after_run = digest_of_owners();
 }
 
 void RunContacts::forget()

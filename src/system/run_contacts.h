@@ -1,9 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The contacts of the last step, for outputs: of particles with each other, with large bodies and
-// with walls. In a run they are found on request. After a run pairs and states stay as
-// they are until the next set-up, for those who observe contacts (see contact_observer.h); what a
-// command changes in between is noticed, and is an error where contacts depend on it.
+// with walls, as the computation of forces has left them. Nothing is found anew and nothing is
+// changed when they are asked for. After a run they stay as they are until the next set-up, for those
+// who observe contacts (see contact_observer.h), whatever moves in between; only that particles or
+// bodies are others is noticed, and is an error.
 
 #ifndef TALUS_SYSTEM_RUN_CONTACTS_H
 #define TALUS_SYSTEM_RUN_CONTACTS_H
@@ -51,7 +52,7 @@ class RunContacts : protected LAMMPS_NS::Pointers {
 
   /// New ones are being computed, or the pair style is going.
   void forget();
-  /// A run has ended: until the next one contacts are those of now, for those who observe them.
+  /// A run has ended: until the next one its contacts stay, for those who observe them.
   void end_run();
   /// LAMMPS is initialized: the last moment at which those of the last run can be found, for
   /// commands such as write_restart then send particles to other ranks.
@@ -65,14 +66,14 @@ class RunContacts : protected LAMMPS_NS::Pointers {
     ContactReport contact;
     std::int64_t tag[2];    ///< of its particles
   };
-  std::uint64_t digest_of_state() const;
+  std::uint64_t digest_of_owners() const;
   void require_those_of_last_run() const;
   void visit_all(ContactData requested, const VisitContact &visit) const;
   int present_index(const KeptContact &one, int end) const;
   ContactReport at_present(const KeptContact &one) const;
 
   GranularSystem &system;
-  /// After a run whose contacts are observed: digest of the state then; and contacts that have been
+  /// After a run whose contacts are observed: digest of whose they are; and contacts that have been
   /// kept because particles may have other local indices since, with the number of particles then.
   std::optional<std::uint64_t> digest_after_run;
   std::optional<std::vector<KeptContact>> kept;

@@ -45,6 +45,7 @@ class StepsInRecords : protected LAMMPS_NS::Pointers {
   bool include(LAMMPS_NS::bigint step, bool tallied) const;
   /// What calls the fixes of any step.
   FixCalls &fix_calls() { return calls; }
+  const FixCalls &fix_calls() const { return calls; }
 
  private:
   std::string find_reason_against(bool pairs_computed);

@@ -17,7 +17,6 @@ class Fix;
 
 namespace Talus {
 
-class StateDigest;
 class StateExchange;
 
 /// For how long forces act on particles in a step, over the time step: those of the step before until
@@ -49,14 +48,10 @@ class SystemFix {
 
   /// Particles touch it, a large body or a wall: it has a number, in the order of the script.
   virtual bool is_touched() const { return false; }
-  /// Of such a fix: visit(contact) for those of the last step on this rank, once its forces have been
-  /// computed; without the number.
+  /// Of such a fix: visit(contact) for those of the last step on this rank, as they were when its forces
+  /// were computed; without the number. Where GranularSystem::may_be_asked() in that step, else none.
   using VisitContact = std::function<void(const ContactReport &)>;
-  virtual void for_each_contact(ContactData /*requested*/, const VisitContact & /*visit*/) {}
-
-  /// Adds what contacts depend on besides time and particles: a command may have changed it after a
-  /// run.
-  virtual void add_to(StateDigest & /*digest*/) const {}
+  virtual void for_each_contact(const VisitContact & /*visit*/) const {}
 
   /// Integrates the motion of particles.
   virtual bool integrates() const { return false; }

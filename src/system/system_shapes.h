@@ -58,13 +58,9 @@ class SystemShapes : public SystemFix {
   /// ParticleState::change().
   virtual bool keeps_change_of(int i) const = 0;
 
-  /// visit(contact) for each contact point of the last step on this rank: of two particles, and of
-  /// a particle and a large body, which has no number.
+  /// visit(contact) for each contact point of two particles in the last step on this rank.
   using VisitContact = std::function<void(const ContactReport &)>;
-  virtual void for_each_contact_of_pairs(ContactData requested,
-                                         const VisitContact &visit) const = 0;
-  virtual void for_each_contact_of_body(LargeBody &body, ContactData requested,
-                                        const VisitContact &visit) const = 0;
+  virtual void for_each_contact_of_pairs(const VisitContact &visit) const = 0;
   /// For pictures: visit(i, triangle) for the surfaces of owned particles with a shape.
   using VisitTriangle = std::function<void(int, const Triangle &)>;
   virtual void for_each_triangle(const VisitTriangle &visit) const = 0;

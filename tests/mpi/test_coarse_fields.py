@@ -125,6 +125,36 @@ class Fields(SceneCase):
                 self.assertAlmostEqual(value["sxy"], value["kxy"] + value["cxy"], delta=1e-9)
                 self.assertAlmostEqual(-3 * value["press"], value["sxx"] + value["syy"] + value["szz"], delta=1e-7)
 
+    def test_volume_is_where_spheres_are(self):
+        """A large sphere among small ones, with a width below its radius: solid inside, nothing outside, all of it together."""
+        small = [Sphere((0.5 + k, 0.5 + m, 0.3), diameter=0.3, density=1000.0) for k in range(4) for m in range(4)]
+        self.make([Sphere((3.9, 2.0, 2.3), diameter=1.9, density=1000.0)] + small)
+        cells, width = (20, 24, 21), 0.25
+        script = self.scene(field("fraction number", cells, width) + output(cells=cells), steps=0)
+        first = None
+        for np in 1, 2:
+            self.run_lammps(script, np=np)
+            rows, = read_grid(self.path("fields"))
+            first = first or rows
+            self.assertLess(max(abs(a[0] - b[0]) for a, b in zip(first, rows)), 1e-13)
+        cell = SIZE**3 / math.prod(cells)
+        self.assert_close(cell * math.fsum(row[0] for row in rows), math.pi / 6 * (1.9**3 + 16 * 0.3**3), 1e-13)
+        self.assert_close(cell * math.fsum(row[1] for row in rows), 17, 1e-12)
+        inside = outside = 0
+        for n, (fraction, _) in enumerate(rows):
+            x = [SIZE * (k + 0.5) / m for k, m in zip((n % 20, n // 20 % 24, n // 480), cells)]
+            away = [a - b for a, b in zip(x, (3.9, 2.0, 2.3))]
+            distance = math.hypot(*(a - SIZE * round(a / SIZE) for a in away))
+            self.assertLess(fraction, 1.02)
+            if distance < 0.95 - width:
+                self.assertAlmostEqual(fraction, 1.0, delta=0.02)
+                inside += 1
+            elif distance > 0.95 + width and x[2] > 0.3 + 0.15 + width:
+                self.assertEqual(fraction, 0.0)
+                outside += 1
+        self.assertGreater(inside, 150)
+        self.assertGreater(outside, 3000)
+
     def test_sums_over_the_grid_and_ranks(self):
         self.make()
         styles = {"penalty": (TALUS, []), "stock": (STOCK, []), "suffix": (STOCK, ["-sf", "talus"])}

@@ -187,10 +187,16 @@ class Pour(SceneCase):
         self.assertIn("fix pour/rate in: the box grows too fast for this number of ranks along it, to reach the region: use "
                       "'boundary' with m in the place of s", " ".join(self.log.split()))
         self.assert_same_bits(fixed, self.bed("run 2000\n", "least", "m", "1 1 4", np=4))
+
+    def test_fill_region_beyond_a_face_that_is_shrink_wrapped(self):
         fill = "run 1\nfill_region mouth 1 number 60 diameter 1.0 density 1.0 seed 1\nrun 100\n"
-        filled = self.bed(fill, "filled", boundary="", pour="")
-        for np, grid in (1, "1 1 1"), (4, "1 1 4"):
-            self.assert_same_bits(filled, self.bed(fill, "filled", "s", grid, pour="", np=np))
+        filled = None
+        for np, grid in (1, "1 1 1"), (2, "2 1 1"), (4, "1 1 4"):
+            frame = self.bed(fill, "filled", "s", grid, pour="", height=5, np=np)
+            filled = filled or frame
+            self.assert_same_bits(filled, frame)
+        self.assertEqual(len(filled.atoms), 100 + 60)
+        self.assertEqual(sum(16.9 < z < 19 for z in filled.column("z").values()), 60)
 
     def test_more_spheres_than_can_be_meant(self):
         for np in 1, 2:

@@ -217,7 +217,7 @@ class Floors(SuperellipsoidCase):
         body_meshes.write_stl(self.path("floor.stl"), [[corners[k] for k in tri] for tri in ((0, 1, 2), (0, 2, 3))])
 
     def test_at_rest_on_an_incline(self):
-        """15 degrees, friction .5: it rocks and stays, with the contact in all steps as on the plane."""
+        """15 degrees, friction .5: it rocks and stays, with the same contact in the same steps as on the plane."""
         self.write_floor()
         found = {}
         for name, floor in self.FLOORS.items():
@@ -233,7 +233,7 @@ fix lost all ave/time 1 5000 5000 v_lost""", 5000, dt=4e-4, law=law, columns="f_
             print(name, "moved by", state[0] - 0.7, "without a contact", state[-1])
             for one, other in zip(state, found["plane"]):
                 self.assertAlmostEqual(one, other, delta=1e-10, msg=name)
-        self.assertLess(found["plane"][-1], 0.02)
+        self.assertLess(found["plane"][-1], 0.1)    # while it rocks
         self.assertLess(found["plane"][0] - 0.7, 0.01)
 
     def test_one_force_at_any_depth(self):
@@ -243,7 +243,7 @@ fix lost all ave/time 1 5000 5000 v_lost""", 5000, dt=4e-4, law=law, columns="f_
                                 "cone": "cone 0 0 -2 0 0 1 5 4 4 outside"}
         for spec, axis, height in (("ellipsoid .5 .025 .025", (0, 1, 0), math.sqrt((0.25 + 0.025**2) / 2)),
                                    ("ellipsoid .5 .5 .05", (1, 0, 0), math.sqrt((0.25 + 0.05**2) / 2))):
-            for depth in 1e-11, 1e-5, 0.03, 0.2, 0.33:
+            for depth in 1e-11, 0.03, 0.33:
                 for name, floor in floors.items():
                     row, = self.simulate([Sphere((0.31, 0.17, height - depth))], f"""
 fix s all shape/gran type 1 {spec} density 1 orient {quat(axis, 45)}
@@ -251,6 +251,24 @@ fix floor all large/body {floor} contact hooke 2e4 0""", 0, law="hooke 2e4 0", c
                     self.assertAlmostEqual(row["f_floor[3]"] / (-2e4 * depth), 1, delta=max(1e-10, 1e-15 / depth), msg=f"{spec} {depth} {name}")
                     self.assertAlmostEqual(row["f_floor[1]"], 0, delta=1e-9)
                     self.assertAlmostEqual(row["f_floor[2]"], 0, delta=1e-9)
+
+    def test_elastic_bounces_in_a_drum_of_facets(self):
+        """All contacts are there, so the energy stays (to the time step, as in a round drum): 1e-3 of what it falls."""
+        def at(k, y):
+            angle = 2 * math.pi * k / 48
+            return 3 * math.cos(angle), y, 3 * math.sin(angle)
+        body_meshes.write_stl(self.path("drum.stl"), [tri for k in range(48) for tri in (
+            (at(k, -4), at(k + 1, 4), at(k, 4)), (at(k, -4), at(k + 1, -4), at(k + 1, 4)))])
+        for drum in "mesh drum.stl", "cylinder 0 0 0 0 1 0 3 8 inside":
+            rows = self.simulate([Sphere((0.7, 0, -1))], f"""
+fix s all shape/gran type 1 ellipsoid .5 .35 .2 density 1 orient quat 0.9233805 0.3077935 0.2051957 0.1025978
+fix g all gravity/talus 1 vector 0 0 -1
+fix drum all large/body {drum} contact hooke 2e4 0
+variable e equal f_s+f_drum+mass[1]*z[1]""", 60000, law="hooke 2e4 0", every=2000, columns="v_e f_drum[20]")
+            fall = 0.1466 * 2
+            error = max(abs(row["v_e"] - rows[0]["v_e"]) for row in rows) / fall
+            print(f"{drum}: energy to {error:.1e}")
+            self.assertLess(error, 1e-3)
 
     def test_a_lens_in_a_drum_of_nearly_its_curvature(self):
         """Its radius where it is flat is 1.25: one place in a drum that is less curved."""

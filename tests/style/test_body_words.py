@@ -242,7 +242,7 @@ run 10
                 lambda i, j: (-2.0 + 4.0 * i / parts + shift, 0.0, -2.0 + 4.0 * j / parts + 0.7 * shift), parts, parts))
             self.run_lammps(SCENE + f"""
 fix body all large/body mesh plate.stl contact hooke 1 0
-dump p all image 10 plate{n}.*.ppm type type size {size} {size} view 90 -90 zoom 1.1 box no 0 atom no fix body type 1 0
+dump p all image 10 plate{n}.*.ppm type type size {size} {size} view 90 -90 zoom 5 box no 0 atom no fix body type 1 0
 dump_modify p backcolor black acolor 1 red
 run 0
 """, np=1 + n % 2)

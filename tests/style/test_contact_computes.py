@@ -179,21 +179,37 @@ class Bed(SceneCase):
                                  sorted(tuple(row.values())[1:] for row in whole[150 + k]), (np, k))
 
     def test_after_something_has_changed(self):
-        """Contacts of the last step are those of particles and bodies as they were then: refused if a command has changed
-        these."""
-        end, write = "run 1510\nundump rows\n", "write_dump all local later index c_rows[*]"
-        for change in ("velocity all set 0 0 0", "displace_atoms all move 0 0 1e-5", "set atom 7 omega 0 0 1",
-                       "set atom 7 diameter 0.0088", "unfix stone", "timestep 1e-5"):
-            for np in 1, 2:
-                with self.subTest(change, np=np), \
-                        self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
-                    self.run_bed(np, run=f"{end}{change}\n{write}")
-            self.run_bed(run=f"{end}{change}\nrun 0\n{write}")
+        """Contacts of the last step are told as they acted in it, whatever commands have changed since; those of a body that is
+        gone are refused."""
+        end = "run 1510\nundump rows\n"
+        write = f"""write_dump all local later index c_rows[*] modify format line "%.0f{' %.17g' * len(WORDS)}"\n"""
+
+        def rows_after(change, np):
+            self.run_bed(np, run=end + change + write)
+            frame, = read_local(self.path("later"))
+            return sorted(row[1:] for row in frame.rows)
+
+        sent = "displace_atoms all move 0 0 1e-5\nchange_box all z final -0.01 0.2\n"
+        changes = ("set atom 7 omega 0 0 1\nset atom 7 diameter 0.0088\ntimestep 1e-5\n"
+                   f"pair_coeff * * {LAW.replace('1e7', '2e7')}\n")
+        for np in 1, 2:
+            acted = rows_after("", np)
+            self.assertGreater(len(acted), 40)
+            self.assertEqual(acted, rows_after((sent if np == 1 else "") + changes, np))
+            with self.assertRaisesRegex(AssertionError, "contacts of the last run cannot be listed(.|\n)*use 'run 0' before"):
+                rows_after("unfix stone\n" if np == 1 else sent, np)
+        self.run_bed(run=f"{end}unfix stone\nrun 0\n{write}")
+
+    def test_after_a_body_was_moved(self):
         steered = BED.format(boundary="f f f").replace(f"outside contact {LAW}", f"outside contact {LAW} move external")
-        moved = "fix_modify stone state 0.025 0.02 0.001 1 0 0 0 0 0 0 0 0 0\n"
-        self.run_lammps(f"{steered}run 10\n{write}")
-        log = self.run_lammps(f"{steered}run 10\n{moved}{write}", expect_error=True).log
-        self.assertRegex(log, "contacts of the last run cannot be listed, for particles or bodies")
+        found = []
+        for moved in "", "fix_modify stone state 0.025 0.02 0.001 1 0 0 0 0 0 0 0 0 0\n":
+            write_sphere_data(self.path("data"), ((-0.001, 0.051), (-0.001, 0.041), (-0.01, 0.1)), grains())
+            self.run_lammps(f"{steered}run 1500\n{moved}write_dump all local later index c_rows[*]")
+            frame, = read_local(self.path("later"))
+            found.append(sorted(frame.rows))
+        self.assertTrue(any(row[3] == 2 for row in found[0]))
+        self.assertEqual(*found)
 
     def test_after_particles_have_gone(self):
         """A file is written, which sends particles to other ranks: rows name the same particles. Some are deleted: rows

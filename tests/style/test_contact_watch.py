@@ -36,6 +36,9 @@ run {steps}
 """
 
 
+LOST = "\nthermo_modify lost ignore"    # what flies out of the box
+
+
 def since_start(cure):
     """The cure of what happens during the run."""
     return "impact" in cure
@@ -92,7 +95,7 @@ class Warned(SceneCase):
         write_sphere_data(self.path("data"), ((-5, 5),) * 3, spheres)
         log = self.run_lammps(SCRIPT.format(dt=1e-4, steps=0, boundary="f f f", more="")).log
         self.assertRegex(log, r"particles 5 and 6 overlap by 0.3 of the smaller radius at step 0; they do from the beginning: "
-                              "place them further apart\n")
+                              "place them further apart")
 
     def test_deep_overlap_during_an_impact(self):
         """Not there at the beginning of the run: found when the lists are rebuilt."""
@@ -122,7 +125,7 @@ class Warned(SceneCase):
             depth = 3.0 * math.sqrt(math.pi / 6 / 1000.0)
             self.assertAlmostEqual(float(ratio), depth / 0.5, delta=0.01)
 
-    LAWS = {"hooke {k} 0.0": 1000.0, "hertz {k} 0.0": 4000.0, "hertz/material {k} 0.9 0.3": 6000.0, "hooke/material {k} 0.9 0.3 4.0": 6000.0}
+    LAWS = {"hooke {k} 0.0": 600.0, "hertz {k} 0.0": 4000.0, "hertz/material {k} 0.9 0.3": 6000.0, "hooke/material {k} 0.9 0.3 4.0": 6000.0}
     NUMBERS = r"for impacts a stiffness \(kn or E\) (\S+) times as high, with (\S+) of the time step, would do"
 
     def impact(self, law, dt, speed, more=""):
@@ -130,7 +133,7 @@ class Warned(SceneCase):
         lone = [Sphere((0, 0, 0.501), (0, 0, -speed), id=5), Sphere((0, 4, 4), id=6)]
         pair = [Sphere((-0.501, 0, 0), (speed / 2, 0, 0), id=5), Sphere((0.501, 0, 0), (-speed / 2, 0, 0), id=6)]
         write_sphere_data(self.path("data"), ((-5, 5),) * 3, lone if more else pair)
-        script = SCRIPT.replace("hooke 1000.0 0.0", law).format(dt=dt, steps=round(0.35 / dt), boundary="f f f", more=more)
+        script = SCRIPT.replace("hooke 1000.0 0.0", law).format(dt=dt, steps=round(0.35 / dt), boundary="f f f", more=more + LOST)
         log = self.run_lammps(script).log
         return [float(found[2]) for found in re.findall(BODY_OVERLAP if more else OVERLAP, log)], re.findall(self.NUMBERS, log)
 
@@ -146,7 +149,7 @@ class Warned(SceneCase):
                     times, share = float(times), float(share)
                     print(f"{first}, {'body' if body else 'pair'}: overlap {ratio}, {times} times the stiffness, {share} of the time step")
                     self.assertGreater(ratio, 0.12)
-                    self.assertAlmostEqual(0.1 / ratio, share, delta=0.011)
+                    self.assertAlmostEqual(0.1 / ratio, share, delta=0.02)
                     cured = law.format(k=k * times)
                     self.assertEqual(self.impact(cured, 1e-3 * share, speed, floor(cured))[0], [])
                     half = law.format(k=k * (1 + 0.5 * (times - 1)))
@@ -166,8 +169,8 @@ class Warned(SceneCase):
 
     def test_wrong_side(self):
         """A center behind the surface: the message asks for the normal, or the side, and for a stiffness only if it went through."""
-        falls = [Sphere((0, 0, 0.7), (0, 0, -3.0), id=4), Sphere((0, 4, 4), id=9)]
-        lies = [Sphere((0, 0, 0.45), id=4), Sphere((0, 4, 4), id=9)]
+        falls = [Sphere((0, 0, 0.7), (0, 0, -3.0), id=4), Sphere((0, 0, 4), id=9)]
+        lies = [Sphere((0, 0, 0.45), id=4), Sphere((0, 0, 4), id=9)]
         text = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step \d+( or since the last rebuild)?; " \
             r"its center is behind the surface: if particles belong on that side, use (.*); otherwise (.*)"
         normal, side = "the normal the other way round, or 'two-sided'", "the other one of 'inside' and 'outside'"
@@ -176,7 +179,7 @@ class Warned(SceneCase):
         for np, spheres, cure in ((1, falls, "no impact should go so deep"), (2, lies, "it is there from the beginning: move the particle")):
             for shape, turn in shapes:
                 with self.subTest(shape, np=np):
-                    more = f"fix wall all large/body {shape} contact hooke 1000.0 0.0"
+                    more = f"fix wall all large/body {shape} contact hooke 1000.0 0.0{LOST}"
                     (name, tag, ratio, since, told, otherwise), *_ = self.found(spheres, text, dt=1e-3, steps=200 if since_start(cure) else 10,
                                                                               more=more, np=np)
                     self.assertEqual((name, tag, told), ("wall", "4", turn))

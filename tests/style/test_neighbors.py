@@ -93,7 +93,7 @@ class Neighbors(TossedCase):
     def test_a_run_without_set_up_after_a_new_pair_style(self):
         for np in 1, 2:
             with self.subTest(ranks=np), self.assertRaisesRegex(
-                    AssertionError, "return code 1:(.|\n)*but the pair style has been defined anew"):
+                    AssertionError, "return code 1:(.|\n)*Run: leave 'pre no' out: the pair style has been defined anew since the last set-up"):
                 self.run_scene(run=f"run 5\npair_style none\n{PAIR.format(law=LAW)}\nrun 5 pre no", np=np)
 
     @mock.patch.dict(os.environ, MALLOC_PERTURB_="0")    # LAMMPS sets the forces of the group alone

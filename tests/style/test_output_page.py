@@ -51,7 +51,7 @@ KNOWN = {
     "kinetic energy of spheres": {"KinEng": MASS * SPEED**2 / 2, "c_spin": 0.2 * MASS * RADIUS**2 * SPIN**2},
     "number of contacts between grains": {"c_pair[1]": 1, "v_mean": 2 / 3},
     "largest overlap between grains": {"c_deepest": SHALLOW / RADIUS},
-    "force and torque on a body": {"f_floor[1]": 0, "f_floor[3]": -2 * WEIGHT, "f_floor[6]": 0},
+    "force on a body, torque": {"f_floor[1]": 0, "f_floor[3]": -2 * WEIGHT, "f_floor[6]": 0},
     "where a body is": {"f_floor[7]": 0, "f_floor[9]": 0, "f_floor[16]": 0},
     "elastic and dissipated energy": {"c_energy[2]": 2, "c_energy[3]": DEEP / RADIUS, "c_energy[4]": ELASTIC, "c_energy[5]": 0},
     "pressure and stress of the contacts between grains |": {"c_p": STRESS[0] / 3, "c_p[1]": 0, "c_p[3]": STRESS[0]},

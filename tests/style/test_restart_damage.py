@@ -59,7 +59,7 @@ SUFFIX = ["-sf", "talus"]
 
 
 class Damage(SceneCase):
-    bits_of_part, rows = 3, 1    # of each part as a whole, and of how many particles
+    bits_of_part, rows = 1, 1    # of each part as a whole, and of how many particles
 
     def setUp(self):
         self.random = random.Random(55)
@@ -102,7 +102,7 @@ class Damage(SceneCase):
             chosen += self.random.sample(of_style, min(self.rows, len(of_style)))
         for part in chosen:
             yield part, part.begin + 7, 4    # of a mark, or the exponent of a count
-            yield part, part.begin + self.random.choice((8, 9, 12, 16)), self.random.randrange(8)
+            yield part, part.begin + self.random.choice((8, 9, 12)), self.random.randrange(8)
             for _ in range(self.bits_of_part):
                 yield part, self.random.randrange(part.begin, part.end), self.random.randrange(8)
 
@@ -117,8 +117,10 @@ class Damage(SceneCase):
                                                             2 if n % 16 == 15 else 1), range(len(places))))
         for (part, byte, bit), outcome in zip(places, outcomes):
             with self.subTest(part=part, byte=byte - part.begin, bit=bit):
-                self.assertTrue(outcome == "same" or DAMAGED in outcome, outcome)
-        self.assertGreater(sum(DAMAGED in outcome for outcome in outcomes), 0.9 * len(outcomes))
+                if part.name == "NEIGH_HISTORY":    # for the stock style; Talus reads it in a file of that alone
+                    self.assertTrue(outcome == "same" or DAMAGED in outcome, outcome)
+                else:
+                    self.assertIn(DAMAGED, outcome)
 
     def test_shapes_bodies_and_a_stream(self):
         pair = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
@@ -136,10 +138,9 @@ class Damage(SceneCase):
         physics = "timestep 0.001\nneighbor 0.2 bin\nfix step all nve/sphere/symplectic\n"
         self.make(physics, pair + physics)
         row = next(restart_file.rows_of_particles(self.content))[0] + 8 * restart_file.TYPE
-        for value in 0, 3, -1, 1 << 30:
-            for np in 1, 2:
-                content = self.content[:row] + struct.pack("<q", value) + self.content[row + 8:]
-                self.assertRegex(self.outcome(content, "types", np), rf"Particle \d is of type {value}, and there are 2 types")
+        for np, value in (1, 0), (2, 3), (1, -1), (1, 1 << 30):
+            content = self.content[:row] + struct.pack("<q", value) + self.content[row + 8:]
+            self.assertRegex(self.outcome(content, "types", np), rf"Particle \d is of type {value}, and there are 2 types")
 
     def test_files_of_other_versions(self):
         """Those of Talus 1.0 have no mark, and where theirs was the data begin."""

@@ -32,7 +32,7 @@ FIX = f"fix s all shape/gran {BOX}"
 ORDER = "ERROR: Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes nve/sphere/symplectic " \
         "and rigid/small/symplectic"
 OF_SPHERES = "knows contacts of spheres only: use"
-PRE_NO = "(shape/gran) has been defined since: leave 'pre no' out"
+PRE_NO = "(shape/gran) has been defined since the last set-up"
 
 
 class ShapeErrors(SceneCase):

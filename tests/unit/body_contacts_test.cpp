@@ -209,6 +209,42 @@ TEST_P(BodyContactsTest, WithoutAdvanceTheHistoryStays)
   }
 }
 
+// Rows for outputs hold the forces that were added, at the positions that were used, whatever moves
+// afterwards; and that they are kept changes no bit of forces and histories.
+TEST_P(BodyContactsTest, WhatIsToldIsWhatActed)
+{
+  find();
+  for (int step = 0; step < 2; step++) compute(true);
+  compute(false);
+  const std::vector<Vector> unasked = force;
+  ComputedContacts told;
+  BodyStep step = step_of(false);
+  step.for_outputs = &told;
+  force.assign(p.size(), Vector{});
+  torque.assign(p.size(), Vector{});
+  contacts.compute(*shape, frame, view(), step);
+  EXPECT_EQ(force, unasked);
+  const std::vector<Vector> place = p.x;
+  for (Vector &x : p.x) x = {2.0 * x[0], x[1] - 1.0, 0.0};
+  contacts.set_laws(single_law({named::Normal::HOOKE, named::Tangential::NONE}, true));
+  for (int repeat = 0; repeat < 2; repeat++) {
+    std::vector<Vector> sum(p.size(), Vector{});
+    int count = 0;
+    told.for_each([&](const ContactReport &one) {
+      count++;
+      const double f[3] = {one.force.x, one.force.y, one.force.z};
+      for (int d = 0; d < 3; d++) sum[one.i][d] += f[d];
+      EXPECT_EQ(one.center[0].x, place[one.i][0]);
+      EXPECT_EQ(one.center[0].z, place[one.i][2]);
+      EXPECT_GT(one.overlap, 0.0);
+      EXPECT_GT(one.stored.normal, 0.0);
+      EXPECT_NEAR(length(one.arm[0]), p.radius[one.i] - one.overlap, 1e-12);
+    });
+    EXPECT_GT(count, 20);
+    EXPECT_EQ(sum, force);
+  }
+}
+
 TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
 {
   ASSERT_TRUE(contacts.keeps_history());

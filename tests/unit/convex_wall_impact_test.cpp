@@ -129,6 +129,18 @@ Flying thrown(RandomBodies &random, const Wall &wall, const ConvexShape &shape, 
   return body;
 }
 
+/// Turned so that an edge of a box falls across a rim, which it leads over.
+Eigen::Quaterniond across(RandomBodies &random, const Vector &outward)
+{
+  const Eigen::Vector3d down = -to_eigen(outward).normalized(), over(0.7, 0, -0.7);
+  const Eigen::Quaterniond edge_down =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(0, 1, 1), down);
+  const Eigen::Vector3d along = edge_down * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d wander = random.uniform(0.05, 0.4) * to_eigen(random.direction());
+  return Eigen::Quaterniond(Eigen::AngleAxisd(wander.norm(), wander.normalized())) *
+         Eigen::Quaterniond::FromTwoVectors(along, over) * edge_down;
+}
+
 /// Away from the wall until it touches nothing.
 void step_back(Flying &body, const BodySurfaces &walls)
 {
@@ -191,6 +203,41 @@ TEST(ConvexWallImpact, EnergyOfRoundedBodies)
       EXPECT_LT(fine.mean, jumps ? 4e-3 : 3e-4) << wall.name << ", " << kind.name;
       EXPECT_LT(fine.largest, jumps ? 1.5e-2 : 1e-3) << wall.name << ", " << kind.name;
       EXPECT_LT(fine.mean, 0.4 * coarse.mean) << wall.name << ", " << kind.name;
+    }
+  }
+}
+
+/* Sharp bricks whose edge falls across the rim of a cap: forces jump along with what is deepest. */
+
+TEST(ConvexWallImpact, EnergyOfSharpBricksOnRims)
+{
+  constexpr int count = 12;
+  const ConvexShape brick = ConvexShape::box({.6, .5, .4}, 0.0);
+  const Vector up{0, 0, 1}, outward{0.7, 0, 0.7}, lean{0.3, 0.3, 0.3}, none{0, 0, 0};
+  const Wall walls[] = {wall("cylinder, rim", new Frustum({0, 0, -1}, up, .3, .3, 2, false),
+                             {.3, 0, 0}, none, outward, lean),
+                        wall("cone, rim", new Frustum({0, 0, -1}, up, 1.2, .3, 2, false),
+                             {.3, 0, 0}, none, outward, lean)};
+  ShapeTable types(collisions_of_shapes());
+  types.set(1, std::make_shared<ParticleShape>(std::make_shared<const ConvexShape>(brick), 1.0));
+  for (const Wall &rim : walls) {
+    const BodySurfaces surfaces(*rim.body, types);
+    for (const double exponent : {1.0, 1.5}) {
+      RandomBodies random(43);
+      Errors coarse, fine;
+      for (int k = 0; k < count; k++) {
+        Flying body = thrown(random, rim, brick, false);
+        body.turn = across(random, rim.from[0]);
+        step_back(body, surfaces);
+        const double stiffness = exponent > 1.0 ? 1e6 : 5e4;
+        coarse.add(energy_error(body, surfaces, stiffness, exponent, 2e-4), count);
+        fine.add(energy_error(body, surfaces, stiffness, exponent, 5e-5), count);
+      }
+      std::printf("%-17s force ~ overlap^%.1f mean %.1e -> %.1e, largest %.1e -> %.1e\n",
+                  rim.name.c_str(), exponent, coarse.mean, fine.mean, coarse.largest, fine.largest);
+      EXPECT_LT(fine.mean, 2e-4) << rim.name;
+      EXPECT_LT(fine.largest, 1e-3) << rim.name;
+      EXPECT_LT(fine.mean, 0.15 * coarse.mean) << rim.name;
     }
   }
 }

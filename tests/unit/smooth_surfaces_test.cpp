@@ -1,122 +1,19 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Superellipsoids on all kinds of surfaces: at any overlap the contact with a flat one is that with a plane, each place
-// that is touched counts once, forces are minus the gradient of the energy, and histories stay with their places.
+// Superellipsoids on flat surfaces and meshes of all kinds: at any overlap the contact is that with a plane, or with the
+// convex body, and none is lost.
 
-#include "body/shape/ball.h"
-#include "body/shape/frustum.h"
-#include "body/shape/mesh_shape.h"
-#include "convex_bodies.h"
-#include "shape/mesh_features.h"
-#include "shape/superellipsoid/superellipsoid.h"
-#include "shape/surface.h"
-#include "shaped/point_contact.h"
-#include "shaped/shape_list.h"
+#include "touched_surfaces.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
 
 using namespace Talus;
 
 namespace {
 
 using Vector = Vector3<double>;
-constexpr double pi = 3.14159265358979323846;
-
-const std::vector<Superellipsoid> &particles()
-{
-  static const std::vector<Superellipsoid> shapes = {
-      {{0.5, 0.35, 0.2}, 2.0, 2.0},    {{0.5, 0.5, 0.5}, 2.0, 2.0},
-      {{0.5, 0.025, 0.025}, 2.0, 2.0}, {{0.5, 0.5, 0.05}, 2.0, 2.0},
-      {{0.4, 0.3, 0.35}, 4.0, 4.0},    {{0.3, 0.3, 0.4}, 6.0, 2.0},
-      {{0.35, 0.3, 0.25}, 20.0, 20.0}, {{0.4, 0.4, 0.04}, 20.0, 2.0},
-      {{0.4, 0.3, 0.3}, 2.5, 8.0}};
-  return shapes;
-}
-
-/// A surface that shapes touch, and what keeps it alive.
-struct Touched {
-  std::string name;
-  std::shared_ptr<const Geometry> geometry;
-  Pose pose{};
-  std::shared_ptr<const LargeBodyShape> body{};
-
-  bool touch(const Superellipsoid &a, const Pose &at, ShapeContacts &contacts) const
-  {
-    return collisions_of_shapes().find(a, *geometry)(a, at, *geometry, pose, {}, contacts);
-  }
-};
-
-Touched box(const Vector &center, const Vector &edges)
-{
-  const auto shape = std::make_shared<ConvexShape>(ConvexShape::box(edges, 0.0));
-  Pose pose = shape->given_frame();
-  pose.position = pose.position + center;
-  return {"box", shape, pose};
-}
-Touched frustum(double low, double high, double middle, double size)
-{
-  const auto body =
-      std::make_shared<Frustum>(Vector{0, 0, middle}, Vector{0, 0, 1}, low, high, size, false);
-  RoundSurface round;
-  round.body = body.get();
-  return {low == high ? "cylinder" : "cone", std::make_shared<RoundSurface>(round), {}, body};
-}
-Touched vessel(const std::string &name, std::shared_ptr<const LargeBodyShape> body)
-{
-  VesselSurface inside;
-  inside.body = body.get();
-  return {name, std::make_shared<VesselSurface>(inside), {}, body};
-}
-Touched mesh(const std::string &name, const std::vector<Triangle> &triangles,
-             MeshSide side = MeshSide::NORMALS)
-{
-  MeshSurface surface;
-  const auto shape = std::make_shared<MeshShape>(TriangleMesh(triangles, false), side);
-  surface.features = std::make_shared<const MeshFeatures>(shape->surface());
-  surface.shape = shape;
-  return {name, std::make_shared<MeshSurface>(surface), {}, shape};
-}
-
-std::vector<Triangle> two_triangles(double half)
-{
-  const Vector a{-half, -half, 0}, b{half, -half, 0}, c{half, half, 0}, d{-half, half, 0};
-  return {{{a, b, c}}, {{a, c, d}}};
-}
-/// Strips of very different widths, cut by diagonals.
-std::vector<Triangle> slivers()
-{
-  std::vector<Triangle> triangles;
-  const std::vector<double> x = {-4.0, -1.0, -0.999, -0.1, 0.0, 1.0e-4,
-                                 0.01, 0.5,  0.5001, 1.7,  4.0},
-                            y = {-4.0, -0.3, -0.2999, 0.25, 0.2501, 1.1, 4.0};
-  for (std::size_t i = 1; i < x.size(); i++)
-    for (std::size_t j = 1; j < y.size(); j++) {
-      const Vector a{x[i - 1], y[j - 1], 0}, b{x[i], y[j - 1], 0}, c{x[i], y[j], 0},
-          d{x[i - 1], y[j], 0};
-      triangles.push_back({{a, b, c}});
-      triangles.push_back({{a, c, d}});
-    }
-  return triangles;
-}
-/// The inside of a drum along z, of facets.
-std::vector<Triangle> drum(int facets, double radius, double half)
-{
-  std::vector<Triangle> triangles;
-  const auto at = [&](int k, double z) {
-    return Vector{radius * std::cos(2.0 * pi * k / facets),
-                  radius * std::sin(2.0 * pi * k / facets), z};
-  };
-  for (int k = 0; k < facets; k++) {
-    triangles.push_back({{at(k, -half), at(k, half), at(k + 1, half)}});
-    triangles.push_back({{at(k, -half), at(k + 1, half), at(k + 1, -half)}});
-  }
-  return triangles;
-}
 
 /// Deepest of all overlaps: of the size, from rounding to the half of it, where the center is in the surface.
 double any_overlap(double height, RandomBodies &random)
@@ -302,210 +199,72 @@ TEST(SmoothSurfaces, in_a_drum_of_facets_the_deepest_counts)
   }
 }
 
-/* ---- walls that are curved inward ------------------------------------------------------------- */
+/* ---- terrain ---------------------------------------------------------------------------------- */
 
-TEST(SmoothSurfaces, a_place_counts_once_where_curvatures_are_close)
+/// The least gauge of a point of these triangles, of an ellipsoid: in units of its half axes the distance from the center.
+double least_gauge(const Superellipsoid &a, const Pose &pose,
+                   const std::vector<Triangle> &triangles)
 {
-  const Superellipsoid lens({0.5, 0.5, 0.2}, 2.0, 2.0);    // of radius 1.25 where it is flat
-  const Eigen::Quaterniond flat(Eigen::AngleAxisd(0.5 * pi, Eigen::Vector3d::UnitY()));
-  RandomBodies random(33);
-  ShapeContacts contacts;
-  const double overlap = 1.0e-3;
-  for (int k = 0; k <= 300; k++) {
-    const double radius = 1.2 + 0.0005 * k, z = random.uniform(-1.0, 1.0);
-    // as seen from the axis, the lowest point of the shape is behind the wall
-    const bool is_flatter = radius + overlap > 1.25;
-    if (std::abs(radius + overlap - 1.25) < 1.0e-4) continue;
-    const Touched drum = vessel("drum", std::make_shared<Frustum>(Vector{0, 0, 0}, Vector{0, 0, 1},
-                                                                  radius, radius, 4.0, true)),
-                  ball = vessel("ball", std::make_shared<Ball>(Vector{0, 0, 0}, radius, true));
-    for (const double turn : {0.0, random.uniform(0.0, 0.003)}) {
-      const Eigen::Quaterniond turned = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * flat;
-      ASSERT_TRUE(drum.touch(lens, Pose({radius - 0.2 + overlap, 0.0, z}, turned), contacts));
-      // turned, one of two places is deeper
-      if (is_flatter || turn == 0.0) {
-        ASSERT_EQ(contacts.points.size(), is_flatter ? 1U : 2U) << radius << " " << turn;
-      }
-      if (turn == 0.0 && is_flatter) {
-        ASSERT_NEAR(contacts.points.front().overlap, overlap, 1.0e-15);
-      }
-      if (turn == 0.0 && !is_flatter) {
-        ASSERT_NEAR(contacts.points[0].overlap, contacts.points[1].overlap, 1.0e-14) << radius;
-        ASSERT_GT(contacts.points[0].overlap, overlap);
-        ASSERT_NE(contacts.points[0].name, contacts.points[1].name);
-      }
+  const Vector half = a.half_axes();
+  double least = 1.0e9;
+  for (const Triangle &one : triangles) {
+    Vector corner[3];
+    for (int k = 0; k < 3; k++) {
+      const Vector own = pose.point_in_body(one.corner[k]);
+      corner[k] = {own.x / half.x, own.y / half.y, own.z / half.z};
     }
-    if (is_flatter) {
-      ASSERT_TRUE(ball.touch(lens, Pose({radius - 0.2 + overlap, 0.0, 0.0}, flat), contacts));
-      ASSERT_EQ(contacts.points.size(), 1U) << radius;
-      ASSERT_NEAR(contacts.points.front().overlap, overlap, 1.0e-14);
+    const Vector n = cross(corner[1] - corner[0], corner[2] - corner[0]),
+                 foot = dot(n, corner[0]) / dot(n, n) * n;
+    bool is_over = true;
+    for (int k = 0; k < 3; k++) {
+      const Vector from = corner[k], edge = corner[(k + 1) % 3] - from;
+      is_over &= dot(cross(edge, foot - from), n) >= 0.0;
+      const double part = std::clamp(-dot(from, edge) / dot(edge, edge), 0.0, 1.0);
+      least = std::min(least, length(from + part * edge));
     }
+    if (is_over) least = std::min(least, length(foot));
   }
+  return least;
 }
 
-/// Around the axis: overlaps of the places where the shape is nearest to a cylinder or cone, by brute force, ascending.
-std::vector<double> places_around(const Superellipsoid &a, const Pose &pose, double radius,
-                                  double slope, int samples)
-{
-  const double tilt = std::atan(slope);
-  const auto behind = [&](double angle) {
-    const Vector m{std::cos(tilt) * std::cos(angle), std::cos(tilt) * std::sin(angle),
-                   -std::sin(tilt)};
-    return a.at_normal(pose.direction_in_body(m)).height + dot(m, pose.position) -
-           radius * std::cos(tilt);
-  };
-  std::vector<double> all(samples), found;
-  for (int k = 0; k < samples; k++) all[k] = behind(2.0 * pi * k / samples);
-  for (int k = 0; k < samples; k++) {
-    if (all[k] < all[(k + 1) % samples] || all[k] <= all[(k + samples - 1) % samples]) continue;
-    double low = 2.0 * pi * (k - 1) / samples, high = 2.0 * pi * (k + 1) / samples;
-    for (int step = 0; step < 80; step++) {
-      const double one = low + 0.382 * (high - low), other = high - 0.382 * (high - low);
-      (behind(one) < behind(other) ? low : high) = behind(one) < behind(other) ? one : other;
-    }
-    found.push_back(behind(0.5 * (low + high)));
-  }
-  found.erase(std::remove_if(found.begin(), found.end(), [](double one) { return one <= 0.0; }),
-              found.end());
-  std::sort(found.begin(), found.end());
-  return found;
-}
+/* Ridges, valleys, and corners where both meet. */
 
-TEST(SmoothSurfaces, curved_inward_each_place_is_found)
+TEST(SmoothSurfaces, no_contact_with_a_terrain_is_lost)
 {
-  RandomBodies random(34);
+  RandomBodies random(40);
   ShapeContacts contacts;
-  int several = 0;
-  for (int k = 0; k < 360; k++) {
-    const Superellipsoid &a = particles()[k % particles().size()];
-    const double radius = random.uniform(0.7, 4.0), slope = k % 2 ? 0.0 : random.uniform(-0.4, 0.4);
-    const Touched wall =
-        vessel(slope == 0.0 ? "drum" : "cone",
-               std::make_shared<Frustum>(Vector{0, 0, 0}, Vector{0, 0, 1}, radius - slope * radius,
-                                         radius + slope * radius, 2.0 * radius, true));
-    Pose pose({0.0, 0.0, random.uniform(-0.1, 0.1)}, random.orientation());
-    if (k % 3 == 0)    // a flat side at the wall
-      pose = Pose(pose.position,
-                  Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * pi + random.uniform(-0.02, 0.02),
-                                                       Eigen::Vector3d::UnitY())));
-    // moved until it touches
-    const double angle = k % 3 ? random.uniform(0.0, 2.0 * pi) : 0.0;
-    double low = 0.0, high = 2.0 * radius;
-    const auto at = [&](double distance) {
-      Pose moved = pose;
-      moved.position.x = distance * std::cos(angle);
-      moved.position.y = distance * std::sin(angle);
-      return moved;
+  int touching = 0;
+  for (int terrain = 0; terrain < 9; terrain++) {
+    constexpr int cells = 8;
+    const double rough = terrain % 3 == 0 ? 0.3 : terrain % 3 == 1 ? 0.05 : 0.6;
+    double height[cells + 1][cells + 1];
+    for (auto &row : height)
+      for (double &z : row) z = rough * random.uniform(-1.0, 1.0);
+    const auto at = [&](int i, int j) {
+      return Vector{0.5 * i - 2.0, 0.5 * j - 2.0, height[i][j]};
     };
-    const auto behind = [&](double distance) {
-      return places_around(a, at(distance), radius, slope, 60);
-    };
-    if (!behind(0.0).empty()) continue;    // does not fit
-    for (int step = 0; step < 45; step++)
-      (behind(0.5 * (low + high)).empty() ? low : high) = 0.5 * (low + high);
-    pose = at(low + a.inscribed_radius() * random.decade(-9.0, -1.0));
-    const std::vector<double> expected = places_around(a, pose, radius, slope, 5000);
-    if (expected.empty() || expected.back() < 1.0e-13) continue;
-    ASSERT_TRUE(wall.touch(a, pose, contacts)) << k << ": " << expected.back();
-    std::vector<double> found;
-    for (const ShapeContact &one : contacts.points)
-      if (one.part == 0) found.push_back(one.overlap);
-    std::sort(found.begin(), found.end());
-    ASSERT_EQ(found.size(), expected.size()) << wall.name << ", " << k << ": " << expected.back();
-    for (std::size_t n = 0; n < found.size(); n++)
-      ASSERT_NEAR(found[n], expected[n], 2.0e-14 * radius) << wall.name << ", " << k;
-    several += found.size() > 1;
-  }
-  EXPECT_GT(several, 10);
-}
-
-/* ---- energy ----------------------------------------------------------------------------------- */
-
-struct Acting {
-  double energy = 0.0;
-  Vector force{0, 0, 0}, torque{0, 0, 0};
-  std::size_t count = 0;
-};
-
-/// Of a linear law of stiffness 1.
-Acting acting(const Touched &surface, const Superellipsoid &a, const Pose &pose)
-{
-  ShapeContacts contacts;
-  Acting all;
-  surface.touch(a, pose, contacts);
-  for (const ShapeContact &one : contacts.points) {
-    all.energy += 0.5 * one.overlap * one.overlap;
-    const Vector force = one.overlap * one.normal;
-    all.force = all.force + force;
-    all.torque = all.torque + cross(one.position - pose.position, force);
-    all.count++;
-  }
-  return all;
-}
-
-TEST(SmoothSurfaces, forces_are_minus_the_gradient_of_the_energy)
-{
-  const std::vector<Touched> surfaces = {
-      box({0, 0, 0}, {1.2, 0.9, 0.7}),
-      mesh("box of triangles", ConvexShape::box({1.2, 0.9, 0.7}, 0.0).surface(1)),
-      mesh("plate", two_triangles(0.6), MeshSide::BOTH),
-      frustum(0.5, 0.5, 0.0, 0.8),
-      frustum(0.7, 0.3, 0.0, 0.8),
-      vessel("cylinder from inside",
-             std::make_shared<Frustum>(Vector{0, 0, 0}, Vector{0, 0, 1}, 1.0, 1.0, 2.0, true)),
-      vessel("ball from inside", std::make_shared<Ball>(Vector{0, 0, 0}, 1.0, true))};
-  for (const Touched &surface : surfaces) {
-    RandomBodies random(35);
-    int compared = 0, differ = 0;
-    for (int k = 0; k < 500; k++) {
-      const Superellipsoid &a = particles()[k % 6];
-      const Vector way = random.direction();
-      Pose pose({0, 0, 0}, random.orientation());
-      const double deep = a.inscribed_radius() * random.decade(-3.0, -0.7);
-      // outward, or inward, until it is so deep
-      const bool is_inside = surface.name.find("inside") != std::string::npos;
-      double in = is_inside ? 2.0 : 0.05, out = is_inside ? 0.0 : 3.0;
-      const auto at = [&](double distance) {
-        Pose moved = pose;
-        moved.position = distance * way;
-        return moved;
-      };
-      for (int step = 0; step < 40; step++) {
-        const double middle = 0.5 * (in + out);
-        (acting(surface, a, at(middle)).energy > 0.5 * deep * deep ? in : out) = middle;
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < cells; i++)
+      for (int j = 0; j < cells; j++) {
+        triangles.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}});
+        triangles.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}});
       }
-      pose = at(out);
-      const Acting here = acting(surface, a, pose);
-      if (here.count == 0 || std::abs(std::sqrt(2.0 * here.energy) / deep - 1.0) > 0.01) continue;
-      const double step = 1.0e-3 * deep;
-      const auto gradient = [&](const Vector &d, bool turns) {
-        double energy[2];
-        for (const int sign : {0, 1}) {
-          Pose moved = pose;
-          const double by = sign ? step : -step;
-          if (turns)
-            moved.rotation = Eigen::AngleAxisd(by, to_eigen(d)).toRotationMatrix() * pose.rotation;
-          else
-            moved.position = pose.position + by * d;
-          const Acting there = acting(surface, a, moved);
-          if (there.count != here.count || length(there.force - here.force) > 0.01 * deep)
-            return std::nan("");
-          energy[sign] = there.energy;
-        }
-        return (energy[1] - energy[0]) / (2.0 * step);
-      };
-      for (const bool turns : {false, true})
-        for (const Vector &d : {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}}) {
-          const double slope = gradient(d, turns),
-                       expected = -dot(d, turns ? here.torque : here.force);
-          if (std::isnan(slope)) continue;    // at a kink
-          compared++;
-          differ += std::abs(slope - expected) > 2.0e-4 * deep;
-        }
+    const Touched surface = mesh("terrain", triangles);
+    for (int k = 0; k < 120; k++) {
+      const Superellipsoid &a = particles()[k % 4];
+      Pose pose({random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), 0.0}, random.orientation());
+      double in = -2.0, out = 3.0;
+      for (int step = 0; step < 60; step++) {
+        pose.position.z = 0.5 * (in + out);
+        (least_gauge(a, pose, triangles) < 1.0 ? in : out) = pose.position.z;
+      }
+      pose.position.z = in - a.inscribed_radius() * random.decade(-11.0, -0.3);
+      if (least_gauge(a, pose, triangles) >= 1.0) continue;    // it is below
+      touching++;
+      ASSERT_TRUE(surface.touch(a, pose, contacts)) << terrain << ", " << k;
     }
-    EXPECT_GT(compared, 1200) << surface.name;
-    EXPECT_EQ(differ, 0) << surface.name << " of " << compared;
   }
+  EXPECT_GT(touching, 300);
 }
 
 TEST(SmoothSurfaces, nearly_a_box_at_the_edge_of_a_mesh_counts_once)
@@ -527,64 +286,6 @@ TEST(SmoothSurfaces, nearly_a_box_at_the_edge_of_a_mesh_counts_once)
     ASSERT_EQ(of_mesh.points.size(), 1U) << k;
     ASSERT_NEAR(of_mesh.points[0].overlap, of_box.points[0].overlap, 4.0e-14) << k;
   }
-}
-
-/* ---- names ------------------------------------------------------------------------------------ */
-
-TEST(SmoothSurfaces, names_of_places_are_directions)
-{
-  RandomBodies random(37);
-  for (int k = 0; k < 1000; k++) {
-    const Vector d = random.direction();
-    Vector again = direction_of_place(place_name(d));
-    again = (1.0 / length(again)) * again;
-    ASSERT_LT(length(again - d), 3.0e-4) << d.x << " " << d.y << " " << d.z;
-    ASSERT_EQ(parts_of(place_name(d)), ContactParts::WHOLE);
-  }
-}
-
-TEST(SmoothSurfaces, histories_stay_with_their_places)
-{
-  // a needle across a drum of facets, that of the deeper end first
-  const Touched wall = mesh("drum", drum(24, 1.0, 3.0));
-  const Superellipsoid needle({0.95, 0.1, 0.1}, 2.0, 2.0);
-  const auto points_at = [&](double x, double angle) {
-    ShapeContacts contacts;
-    const Eigen::Quaterniond turned(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
-    wall.touch(needle, Pose({x, 0.35, 0.1}, turned), contacts);
-    std::vector<PointContact> points;
-    for (const ShapeContact &one : contacts.points) {
-      PointContact point{};
-      point.name = static_cast<std::uint64_t>(one.surface) << 32 | one.name;
-      point.is_named_by_place = one.is_named_by_place;
-      point.place = one.position;
-      points.push_back(point);
-    }
-    return points;
-  };
-  std::vector<PointContact> before = points_at(0.0, 0.0);
-  ASSERT_EQ(before.size(), 2U);
-  for (PointContact &point : before) point.history[0] = point.place.x > 0.0 ? 1.0 : -1.0;
-  // to and fro, so that either end is the deeper one, alone or not, and on other facets
-  for (int step = 1; step <= 200; step++) {
-    const double phase = 2.0 * pi * step / 100;
-    std::vector<PointContact> points =
-        points_at(0.01 * std::sin(phase), 0.02 * std::sin(2.0 * phase));
-    ASSERT_EQ(points.size(), 2U) << step;
-    continue_at_places(points.data(), points.size(), before.data(), before.size());
-    for (const PointContact &point : points)
-      ASSERT_EQ(point.history[0], point.place.x > 0.0 ? 1.0 : -1.0) << step;
-    before = points;
-  }
-  // one goes: the other keeps its own; and one that comes has none
-  std::vector<PointContact> one = {points_at(0.0, 0.0)};
-  one.erase(one.begin());
-  continue_at_places(one.data(), 1, before.data(), 2);
-  ASSERT_EQ(one[0].history[0], one[0].place.x > 0.0 ? 1.0 : -1.0);
-  std::vector<PointContact> both = points_at(0.001, 0.0);
-  continue_at_places(both.data(), 2, one.data(), 1);
-  for (const PointContact &point : both)
-    ASSERT_EQ(point.history[0], point.place.x * one[0].place.x > 0.0 ? one[0].history[0] : 0.0);
 }
 
 }    // namespace

@@ -40,8 +40,8 @@ void BodyBatch::start(bool with_exact)
   if (with_exact) exact.clear();
   touched.clear();
   corners.clear();
+  contacts_for_outputs.clear();
   work = EnergyByCause{};
-  last.clear();
 }
 
 void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t end_of_range)
@@ -50,7 +50,6 @@ void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t
   touching = 0.0;
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
   const bool several = task->shape.most_contacts() > 1, by_parts = several && !task->wall;
-  if (task->report) last.rewind();
   if (task->wall) set_all_points();
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
@@ -295,12 +294,8 @@ void BodyBatch::flush()
     std::fill(curvature + filled, curvature + end, 0.0);
   gather();
   batch.lag = task->lag;
-  if (task->report) {
-    report();
-    filled = 0;
-    return;
-  }
   if (!task->wall) notice_deeper();
+  if (task->record_contacts) begin_records();
   run_laws(batch, law_index, 0, end, {task->laws, task->dt, task->advance, task->account});
   if (task->with_history && task->advance) keep_histories();
   if (task->account) account();
@@ -308,8 +303,9 @@ void BodyBatch::flush()
   if (task->record_corners) record_corners();
   if (task->frame.turned) rotate_to_space();
   add_to_particles();
+  if (task->record_contacts) complete_records();
   if (task->wall)
-    pass_on();
+    add_heat();
   else
     add_load();
   if (task->virial) add_virials();
@@ -330,8 +326,7 @@ void BodyBatch::notice_deeper()
   for (int lane = 0; lane < filled; lane++) {
     const double ratio = batch.overlap[lane] / radius[lane];
     if (!(ratio > deepest_so_far.overlap_ratio)) continue;
-    const ContactReport one = geometry_of(lane);
-    deepest_so_far = {ratio, one.i, one.part};
+    deepest_so_far = {ratio, task->candidates.atom(candidate_of_lane[lane]), part_of(lane)};
   }
 }
 
@@ -344,37 +339,46 @@ void BodyBatch::account()
   }
 }
 
-/* In the frame of the body. */
+/* For outputs; -1 without parts. */
 
-ContactReport BodyBatch::geometry_of(int lane) const
+int BodyBatch::part_of(int lane) const
 {
-  ContactReport found;
-  found.i = task->candidates.atom(candidate_of_lane[lane]);
-  if (task->wall || task->shape.most_contacts() > 1) found.part = part_of_lane[lane];
-  if (task->frame.vertices) found.part = task->frame.vertices->own_triangle(found.part);
-  found.normal = lane_of(batch.normal, lane);
-  found.overlap = batch.overlap[lane];
-  return found;
+  if (!task->wall && task->shape.most_contacts() == 1) return -1;
+  const MovingVertices *const vertices = task->frame.vertices;
+  return vertices ? vertices->own_triangle(part_of_lane[lane]) : part_of_lane[lane];
 }
 
-void BodyBatch::report()
+/* What laws are about to read: some of them change it. */
+
+void BodyBatch::begin_records()
 {
-  const BodyFrame &frame = task->frame;
   for (int lane = 0; lane < filled; lane++) {
-    HistoryValues history{};
-    for (int n = 0; n < 4 * task->history_records; n++) history[n] = batch.history[n][lane];
-    ContactReport found = geometry_of(lane);
-    report_contact(law, task->laws.coefficients(batch.coefficients[lane]),
-                   state_of_lane(batch, lane), task->dt, history, task->requested, found);
-    if (frame.turned) {
-      found.normal = frame.to_space(found.normal);
-      found.force = frame.to_space(found.force);
-      found.torque_per_radius = frame.to_space(found.torque_per_radius);
-      found.twisting_torque = frame.to_space(found.twisting_torque);
-    }
-    if (task->wall) last.find(law.has_friction(), law.twists(), found);
-    found.set_arms_of_spheres(radius[lane], 0.0);
-    (*task->report)(found);
+    ComputedContact &one = contacts_for_outputs.emplace_back();
+    one.state = state_of_lane(batch, lane);
+    one.row = batch.coefficients[lane];
+  }
+}
+
+/* Forces and torques are in space axes by now. */
+
+void BodyBatch::complete_records()
+{
+  const std::size_t before = contacts_for_outputs.size() - filled;
+  for (int lane = 0; lane < filled; lane++) {
+    ComputedContact &one = contacts_for_outputs[before + lane];
+    ContactReport &to = one.report;
+    to.i = task->candidates.atom(candidate_of_lane[lane]);
+    to.part = part_of(lane);
+    to.center[0] = lane_of(place, lane);
+    to.normal = task->frame.to_space(one.state.normal);
+    to.overlap = one.state.overlap;
+    to.force = lane_of(batch.force, lane);
+    if (law.has_friction()) to.torque_per_radius = lane_of(batch.torque_per_radius, lane);
+    if (law.resists()) to.twisting_torque = lane_of(batch.twisting_torque, lane);
+    if (law.conducts_heat()) to.heat_flow = batch.heat_flow[lane];
+    for (int n = 0; task->with_history && n < 4 * task->history_records; n++)
+      to.history[n] = batch.history[n][lane];
+    to.set_arms_of_spheres(radius[lane], 0.0);
   }
 }
 

@@ -15,7 +15,7 @@
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
 #include "body/contact/body_load.h"
-#include "body/contact/last_forces.h"
+#include "body/contact/computed_contacts.h"
 #include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
@@ -27,7 +27,6 @@
 #include "particles/particle_state.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -61,15 +60,12 @@ struct BodyTask {
   double lag;      ///< see ContactStep
   bool advance;    ///< false: histories are only read
   bool exact;      ///< sum the load without rounding as well
-  bool record_parts, record_corners;
+  bool record_parts, record_corners, record_contacts;
   const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
   double *virial;                ///< see BodyStep
-  /// If not nullptr: called with each contact, by one thread, instead of adding forces.
-  const std::function<void(const ContactReport &)> *report;
-  ContactData requested = ContactData::ALL;
-  bool with_history;       ///< of any law
-  int history_records;     ///< see LawTable
-  const WallStep *wall;    ///< see BodyStep
+  bool with_history;             ///< of any law
+  int history_records;           ///< see LawTable
+  const WallStep *wall;          ///< see BodyStep
 
   static constexpr int spare = 128;
 
@@ -102,10 +98,11 @@ class BodyBatch {
 
   // results since start()
   BodyLoad load;
-  ExactLoad exact;                        ///< if asked for
-  AlignedVector<TouchedPart> touched;     ///< if asked for
-  std::vector<TouchedCorners> corners;    ///< the same
-  EnergyByCause work;                     ///< if asked for
+  ExactLoad exact;                                      ///< if asked for
+  AlignedVector<TouchedPart> touched;                   ///< if asked for
+  std::vector<TouchedCorners> corners;                  ///< the same
+  std::vector<ComputedContact> contacts_for_outputs;    ///< the same
+  EnergyByCause work;                                   ///< if asked for
 
   /// The deepest contact since forget_deepest(), if it is deeper than DeepestContact::watched; not of
   /// walls of LAMMPS.
@@ -133,8 +130,9 @@ class BodyBatch {
   void flush();
   void notice_deeper();
   void account();
-  ContactReport geometry_of(int lane) const;
-  void report();
+  int part_of(int lane) const;
+  void begin_records();
+  void complete_records();
   void record_parts();
 
   // walls of LAMMPS
@@ -145,7 +143,7 @@ class BodyBatch {
   void set_point(int lane, const WallSurface::Point &point);
   void see_from_wall(Motion &m, int k) const;
   void gather_temperatures();
-  void pass_on();
+  void add_heat();
 
   // meshes whose vertices move
   void find_points(int k);
@@ -203,7 +201,6 @@ class BodyBatch {
   alignas(64) double curvature[ContactBatch::width] = {};
   SurfaceContact found_on_wall[WallSurface::most_of_wall];
   WallSurface::Point points_of_wall[WallSurface::most_of_wall];
-  LastForces last;
 
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;

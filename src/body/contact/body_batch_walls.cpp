@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // What only walls of LAMMPS need: surfaces that move by themselves and are curved, contacts that are
-// known by their parts, heat, and forces that are kept for outputs.
+// known by their parts, and heat.
 
 #include "body/contact/body_batch.h"
 
@@ -57,15 +57,20 @@ void BodyBatch::set_all_points()
   }
 }
 
-/* Only reports ask for parts. */
+/* Only outputs ask for parts where all points have the same velocity and curvature. */
 
 void BodyBatch::take_points(unsigned bits)
 {
-  if (!task->report && task->wall->surface.everywhere()) return;
+  const bool same = task->wall->surface.everywhere() != nullptr;
+  if (same && !task->record_contacts) return;
   for (int lane = filled; bits; bits &= bits - 1U, lane++) {
     const int k = __builtin_ctz(bits);
-    set_point(lane, task->wall->surface.point(
-                        {spheres.center[0][k], spheres.center[1][k], spheres.center[2][k]}));
+    const WallSurface::Point point = task->wall->surface.point(
+        {spheres.center[0][k], spheres.center[1][k], spheres.center[2][k]});
+    if (same)
+      part_of_lane[lane] = point.part;
+    else
+      set_point(lane, point);
   }
 }
 
@@ -100,23 +105,12 @@ void BodyBatch::gather_temperatures()
         wall.wall_temperature - wall.temperature[task->candidates.atom(candidate_of_lane[k])];
 }
 
-/* Results that are neither forces on particles nor loads. */
-
-void BodyBatch::pass_on()
+void BodyBatch::add_heat()
 {
-  const WallStep &wall = *task->wall;
-  const auto atom = [this](int lane) { return task->candidates.atom(candidate_of_lane[lane]); };
-  last.add(batch, filled, law.has_friction(), law.twists(), atom);
-  const bool conducts = law.conducts_heat();
-  for (int k = 0; k < filled && wall.heat_flow && conducts; k++)
-    wall.heat_flow[atom(k)] += batch.heat_flow[k];
-  for (int k = 0; k < filled && wall.computed; k++) {
-    ContactReport done = geometry_of(k);
-    done.force = lane_of(batch.force, k);
-    done.heat_flow = conducts ? batch.heat_flow[k] : 0.0;
-    done.set_arms_of_spheres(radius[k], 0.0);
-    wall.computed(done);
-  }
+  double *const heat_flow = task->wall->heat_flow;
+  if (!heat_flow || !law.conducts_heat()) return;
+  for (int k = 0; k < filled; k++)
+    heat_flow[task->candidates.atom(candidate_of_lane[k])] += batch.heat_flow[k];
 }
 
 }    // namespace Talus

@@ -25,9 +25,9 @@ void BodyFindings::join(const DeepestInBody &deepest)
 
 void BodyContacts::set_laws(const LawTable &table)
 {
-  laws = table;
-  with_history = laws.has_history();
-  history_records = laws.history_records();
+  laws = std::make_shared<const LawTable>(table);
+  with_history = laws->has_history();
+  history_records = laws->history_records();
   batches.clear();    // their lanes hold rows of the old table
 }
 
@@ -72,11 +72,11 @@ double BodyContacts::largest_pulloff_distance(const ParticleState &view, const i
                                               int group) const
 {
   double largest = 0.0;
-  if (!laws.lasts_beyond_contact()) return largest;
+  if (!laws->lasts_beyond_contact()) return largest;
   for (int i = 0; i < view.owned(); i++)
     if (mask[i] & group)
       largest = std::max(
-          largest, laws.pulloff_distance(laws.row(view.type(i), view.type(i)), view.radius(i)));
+          largest, laws->pulloff_distance(laws->row(view.type(i), view.type(i)), view.radius(i)));
   return largest;
 }
 
@@ -98,7 +98,7 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
                                const ParticleState &view, const BodyStep &step)
 {
   return {shape,
-          laws,
+          *laws,
           frame,
           view,
           candidates,
@@ -110,10 +110,9 @@ BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &fra
           step.exact != nullptr,
           step.touched != nullptr,
           step.corners != nullptr,
+          step.for_outputs != nullptr,
           step.account,
           step.virial,
-          nullptr,
-          ContactData::ALL,
           with_history,
           history_records,
           step.wall};
@@ -135,7 +134,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
                                const ParticleState &view, const BodyStep &step)
 {
   const bool many = step.threads > 1 && shape.thread_safe();
-  const int threads = threads_of_step = many ? step.threads : 1;
+  const int threads = many ? step.threads : 1;
   index_candidates(view);
   history.begin_step();
   start_batches(threads, step.exact);
@@ -149,6 +148,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
   if (step.corners) step.corners->clear();
+  if (step.for_outputs) step.for_outputs->begin(laws, step.dt);
   for (const auto &batch : batches) {
     load.add(batch->load);
     if (step.exact) step.exact->add(batch->exact);
@@ -158,6 +158,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
       step.corners->swap(batch->corners);    // of the first, or the only one
     else if (step.corners)
       step.corners->insert(step.corners->end(), batch->corners.begin(), batch->corners.end());
+    if (step.for_outputs) step.for_outputs->add(batch->contacts_for_outputs);
   }
   return load;
 }
@@ -165,7 +166,8 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
 bool BodyContacts::begin_static(const LargeBodyShape &shape, const BodyFrame &frame,
                                 const ParticleState &view, const BodyStep &step)
 {
-  const bool is_plain = !step.exact && !step.touched && !step.corners && !step.virial;
+  const bool is_plain =
+      !step.exact && !step.touched && !step.corners && !step.virial && !step.for_outputs;
   if (shape.most_contacts() > 1 || !view.order() || frame.moves || !is_plain) return false;
   index_candidates(view);
   history.begin_step();
@@ -196,28 +198,6 @@ EnergyByCause BodyContacts::static_work() const
   EnergyByCause work;
   for (const auto &batch : batches) work += batch->work;
   return work;
-}
-
-/* Contacts are found where they have been found before, so that their histories stay. */
-
-void BodyContacts::for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                                    const ParticleState &view, double dt, ContactData requested,
-                                    const VisitContact &visit, const WallStep *wall)
-{
-  index_candidates(view);
-  BodyStep step;
-  step.dt = dt;
-  step.advance = false;
-  step.wall = wall;
-  BodyTask task = task_of(shape, frame, view, step);
-  task.report = &visit;
-  task.requested = requested;
-  if (!wall) {
-    BodyBatch{}.compute(task, 0, candidates.size());
-    return;
-  }
-  for (int t = 0; t < threads_of_step; t++)    // each has kept its forces
-    batches[t]->compute(task, first_of(t, threads_of_step), first_of(t + 1, threads_of_step));
 }
 
 BodyFindings BodyContacts::find_worst(const LargeBodyShape &shape, const BodyFrame &frame,

@@ -29,6 +29,7 @@ struct BodyStep {
   ExactLoad *exact = nullptr;                        ///< receives the load without rounding
   std::vector<TouchedPart> *touched = nullptr;       ///< receives one entry for each contact
   std::vector<TouchedCorners> *corners = nullptr;    ///< the same, of a mesh whose vertices move
+  ComputedContacts *for_outputs = nullptr;    ///< receives the contacts, if they may be asked for
   double *virial = nullptr;          ///< added to, six for each owned particle: xx yy zz xy xz yz
   const WallStep *wall = nullptr;    ///< only of walls of LAMMPS, whose shape is WallStep::surface
 };
@@ -60,7 +61,7 @@ class BodyContacts {
   /// After find_candidates(), where the histories are those of laws for the other order of the
   /// integrator: by those of order 1 of a type, see change_of_order.h.
   void change_order(int order, const int *type, const std::function<const ContactLaw &(int)> &law);
-  const LawTable &law_table() const { return laws; }
+  const LawTable &law_table() const { return *laws; }
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
@@ -104,12 +105,6 @@ class BodyContacts {
   /// Of the same, for step.account.
   EnergyByCause static_work() const;
 
-  /// Every contact, once forces have been computed: visit(contact). `dt`: of the step.
-  using VisitContact = std::function<void(const ContactReport &)>;
-  void for_each_contact(const LargeBodyShape &shape, const BodyFrame &frame,
-                        const ParticleState &view, double dt, ContactData requested,
-                        const VisitContact &visit, const WallStep *wall = nullptr);
-
   /// Distance from the reference point within which all particles were when they were last listed;
   /// only of bodies that move.
   double reach() const { return candidates.reach(); }
@@ -132,7 +127,7 @@ class BodyContacts {
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
 
-  LawTable laws;
+  std::shared_ptr<const LawTable> laws = std::make_shared<const LawTable>();
   bool with_history = false;
   int history_records = 0;    // of the laws
   BodyCandidates candidates;
@@ -140,7 +135,6 @@ class BodyContacts {
   const int *order_of_index = nullptr;    // that of the particles when they were found
 
   std::vector<std::unique_ptr<BodyBatch>> batches;    // by thread
-  int threads_of_step = 1;                            // of the last compute()
 
   struct StaticStep {
     const LargeBodyShape *shape = nullptr;

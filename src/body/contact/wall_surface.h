@@ -10,9 +10,6 @@
 
 #include "base/vector3.h"
 #include "body/shape/large_body_shape.h"
-#include "laws/contact_energy.h"
-
-#include <functional>
 
 namespace Talus {
 
@@ -56,8 +53,6 @@ struct WallStep {
   const double *temperature = nullptr;    ///< by local index, if heat is conducted
   double wall_temperature = 0.0;
   double *heat_flow = nullptr;    ///< by local index, added to (energy/time); or nullptr
-  /// If set, called with each contact; by several threads, each for its own particles.
-  std::function<void(const ContactReport &)> computed{};
 };
 
 }    // namespace Talus

@@ -65,7 +65,9 @@ bool collide_vessel(const ConvexShape &shape, const Pose &pose, const LargeBodyS
 /// Outside of a cylinder or cone. Every vertex of the core that is nearer to it than the radius, or
 /// inside; every edge whose nearest point is between its ends; and the rims of caps: at twelve
 /// places, and in between where they are deepest behind a face. An edge shares its energy with its
-/// ends, and the last ones with the two places and the vertices and edges of the face.
+/// ends, and the last ones with the two places and the vertices and edges of the face. Forces are
+/// minus the gradient of that energy, also of an edge that is deepest where a cap and the mantle are
+/// as near: along the mean of both normals that is perpendicular to it.
 bool collide_round(const ConvexShape &shape, const Pose &pose, const Frustum &body,
                    ShapeContacts &contacts, double force_exponent = 1.0);
 

@@ -37,8 +37,8 @@ class RoundContacts {
   {
     add_vertices();
     add_edges();
-    if (body.is_infinite()) return;
-    for (const int end : {0, 1}) add_rim(end);
+    if (!body.is_infinite())
+      for (const int end : {0, 1}) add_rim(end);
     for (std::size_t k = 0; k < edges.size(); k++) points[first_edge + k].weight *= edges[k].slope;
     sort_by_name(points);
   }

@@ -2,7 +2,8 @@
 //
 // Contacts of superellipsoids, see collisions.h. With what is convex they have one: where the least way leads
 // that moves them apart. With the inside of a body one for each place where it is nearest to a wall, with a mesh
-// one for each face, edge and corner that reaches into them.
+// one for all faces, edges and corners that meet at ridges. Points on walls that are curved inward and on smooth patches
+// of a mesh are named by their places, on other parts of a mesh by these.
 
 #ifndef TALUS_SHAPE_SUPERELLIPSOID_SUPERELLIPSOID_CONTACTS_H
 #define TALUS_SHAPE_SUPERELLIPSOID_SUPERELLIPSOID_CONTACTS_H

@@ -294,7 +294,8 @@ class WithMesh {
     with.places.settle();
     for (Candidate &one : all) one.plane = with.places.of(one.plane);
     std::sort(all.begin(), all.end(), [&](const Candidate &a, const Candidate &b) {
-      return rank(a) != rank(b) ? rank(a) < rank(b) : a.triangle < b.triangle;
+      if (rank(a) != rank(b)) return rank(a) < rank(b);
+      return a.triangle != b.triangle ? a.triangle < b.triangle : a.kind < b.kind;
     });
     auto kept = all.begin();
     for (const Candidate &one : all)

@@ -6,16 +6,15 @@
 // place that is touched, of which there may be several if the shape is flatter than the wall elsewhere. Near by, the
 // steps are those of Newton's method.
 //
-// Shapes are flattest at the ends of their axes, and symmetric; so that there is one place at most in each octant of a
-// shape, which is looked for in those that reach behind the wall: a convex function is largest at a corner of the box
-// around the octant.
+// Shapes are flattest at the ends of their axes, and symmetric; so that one place at most is looked for in each octant
+// of a shape, from its middle. The way outward does not go beyond a place: if it leaves the octant there is none. For
+// most octants the first step shows that, which is made for all eight at once.
 
 #include "body/shape/large_body_shape.h"
 #include "shape/superellipsoid/superellipsoid_contacts.h"
 #include "shape/superellipsoid/touch.h"
 
-#include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace Talus {
 namespace {
@@ -165,16 +164,11 @@ class Places {
       add(first);
       leave_out_octants_at(first.of_shape.place);
     }
-    const Vector corner = a.geometry.on_ray(half).place;
+    Vector direction[8];
+    const unsigned climbing = first_steps(direction);
     for (int octant = 0; octant < 8; octant++) {
-      const Vector to = signs(octant);
-      Outward seen;
       Place place;
-      if (left_out[octant] || !reaches_behind(to) ||
-          !wall.look(a.pose.point_in_space({to.x * corner.x, to.y * corner.y, to.z * corner.z}),
-                     seen))
-        continue;
-      if (climb.from(seen.direction, place)) add(place);
+      if ((climbing >> octant & 1U) && climb.from(direction[octant], place)) add(place);
     }
     if (!count) add(first);
   }
@@ -211,29 +205,39 @@ class Places {
   }
   void leave_out_octants_at(const Vector &x)
   {
-    constexpr double at_border = 1.0e-3;
-    for (int octant = 0; octant < 8; octant++) {
-      const Vector to = signs(octant);
-      left_out[octant] = to.x * x.x >= -at_border * half.x && to.y * x.y >= -at_border * half.y &&
-                         to.z * x.z >= -at_border * half.z;
-    }
+    for (int octant = 0; octant < 8; octant++) left_out[octant] = is_in(octant, x);
   }
-  /// Does a corner of the box around the octant? Beginning with that farthest from the center.
-  bool reaches_behind(const Vector &to)
+  bool is_in(int octant, const Vector &x) const
   {
-    for (int corner = 7; corner >= 0; corner--) {
-      const int i = corner & 1 ? static_cast<int>(to.x) : 0,
-                j = corner & 2 ? static_cast<int>(to.y) : 0,
-                k = corner & 4 ? static_cast<int>(to.z) : 0;
-      signed char &behind = is_behind[9 * (i + 1) + 3 * (j + 1) + k + 1];
-      if (behind < 0) {
-        Outward seen;
-        behind = wall.look(a.pose.point_in_space({i * half.x, j * half.y, k * half.z}), seen) &&
-                 seen.behind > 0.0;
-      }
-      if (behind) return true;
+    constexpr double at_border = 1.0e-3;
+    const Vector to = signs(octant);
+    return to.x * x.x >= -at_border * half.x && to.y * x.y >= -at_border * half.y &&
+           to.z * x.z >= -at_border * half.z;
+  }
+  /// Bits of the octants that are not left by the first step from their middle, along these directions.
+  unsigned first_steps(Vector (&direction)[8]) const
+  {
+    alignas(64) double own[3][8] = {};
+    unsigned seen = 0;
+    for (int octant = 0; octant < 8; octant++) {
+      const Vector to = 0.5 * signs(octant);
+      Outward at_wall;
+      own[0][octant] = 1.0;
+      if (left_out[octant] ||
+          !wall.look(a.pose.point_in_space({to.x * half.x, to.y * half.y, to.z * half.z}), at_wall))
+        continue;
+      seen |= 1U << octant;
+      direction[octant] = at_wall.direction;
+      const Vector n = a.pose.direction_in_body(at_wall.direction);
+      own[0][octant] = n.x;
+      own[1][octant] = n.y;
+      own[2][octant] = n.z;
     }
-    return false;
+    const Vector3<Vec8> normals{load8(own[0]), load8(own[1]), load8(own[2])};
+    const Vector3<Vec8> next = a.geometry.formulas().at_normal(normals).place;
+    for (int octant = 0; octant < 8; octant++)
+      if (!is_in(octant, {next.x[octant], next.y[octant], next.z[octant]})) seen &= ~(1U << octant);
+    return seen;
   }
 
   const PlacedSuperellipsoid &a;
@@ -243,11 +247,6 @@ class Places {
   Place found[9];
   int count = 0;
   bool left_out[8] = {};
-  std::array<signed char, 27> is_behind = [] {    // of a grid of points; -1: not known yet
-    std::array<signed char, 27> all{};
-    all.fill(-1);
-    return all;
-  }();
 };
 
 void add_contact(const PlacedSuperellipsoid &a, const Place &place, int part,
