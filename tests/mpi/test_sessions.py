@@ -28,10 +28,11 @@ class Tools(unittest.TestCase):
 
     def test_stock_styles_have_other_bits_on_other_ranks(self):
         """And that the scene becomes small."""
-        scene = scenes.of_the_host(random.Random(5)).but(words=(), program=(("run", 300),))
         grid = (("ranks", 2),)
         with Pool() as pool:
-            fault, _ = same_bits.check(pool.run, scene, grid)
+            drawn = (scenes.of_the_host(random.Random(seed)).but(words=(), program=(("run", 60),)) for seed in range(20))
+            tried = ((scene, same_bits.check(pool.run, scene, grid)[0]) for scene in drawn)
+            scene, fault = next(((scene, fault) for scene, fault in tried if fault), (None, ""))
             self.assertRegex(fault, "^other bits")
             (smaller, _), fault = shrink(same_bits, pool.run, (scene, grid), fault, 4.0)
             self.assertRegex(fault, "^other bits")

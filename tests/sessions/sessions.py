@@ -53,6 +53,7 @@ from spelled import spelled
 SHARES = {same_bits: 4, robust: 4, like_stock: 2, surfaces: 3, gradients: 2, symmetry: 3}
 RELATIONS = {relation.__name__: relation for relation in SHARES}
 SHRINKING = 60.0    # seconds
+SHORT = 10.0        # for one that is known to
 PATIENCE = 180.0    # for a session that is taken to hang
 
 
@@ -75,6 +76,10 @@ class Judge:
             found = self.pool.run(session, fresh=True, limit=PATIENCE)
         return found
 
+    def soon(self, session):
+        """Where a hang was found, one that is made smaller does not get as long."""
+        return self.pool.run(session, limit=SHORT)
+
     def judge(self, name, seed):
         """Empty, or the text of a fault."""
         relation = RELATIONS[name]
@@ -92,8 +97,9 @@ class Judge:
             self.known[reason] += 1
             return ""
         self.faults[name] += 1
-        case, fault = shrink(relation, self.sure, case, fault, self.shrinking)
-        fault, sessions = relation.check(self.sure, *case)
+        again = self.soon if fault.startswith(HANG) else self.pool.run
+        case, fault = shrink(relation, again, case, fault, self.shrinking)
+        fault, sessions = relation.check(again, *case)
         return f"== {name} {seed}: {fault}\n\n" + "\n".join(spelled(session) for session in sessions)
 
 
