@@ -57,9 +57,10 @@ SCENES = {
                f"{TWO_BALLS}fix b all wall/gran/region {STOCK} region both"),
     "shapes": ("sphere", "p p p", RANDOM, PENALTY + "fix s all shape/gran type 1 box 0.6 0.6 0.5 density 1 orient random 5\n",
                f"fix b all large/body sphere 4 4 4 1.75 outside contact {LAW}"),
-    "clumps": ("hybrid sphere molecular", "p p f", "read_data clumps\n",
-               PENALTY + "group clumps molecule > 0\nfix step all rigid/small/symplectic molecule\nneigh_modify exclude molecule/intra clumps\n",
-               f"fix b all large/body sphere 4 4 4 1.0 outside contact {LAW}\nfix c all large/body plane 0 0 0 0 0 1 contact {LAW}"),
+    "clumps": ("sphere", "p p f", "atom_modify map yes\nfix prop all property/atom mol ghost yes\nread_data clumps fix prop NULL Molecules\n",
+               PENALTY + "group clumps molecule > 0\ngroup single molecule 0\nfix step clumps rigid/small/symplectic molecule\n"
+               "fix step2 single nve/sphere/symplectic\nneigh_modify exclude molecule/intra clumps\n",
+               f"fix b all large/body sphere 2.7 2.7 2.7 2.2 outside contact {LAW}\nfix c all large/body plane 0 0 0.9 0 0 1 contact {LAW}"),
 }
 MOVERS = {
     "deform": "fix d all deform 1 x erate -0.05 y erate 0.05 remap x\n",
@@ -127,7 +128,7 @@ class Asking(SceneCase):
                 if np not in alone:
                     alone[np] = self.run_scene(name, mover, np=np)
                 self.assert_same_bits(alone[np], self.run_scene(name, mover, every, np))
-                self.assertGreater(self.assert_rows_acted(), 5)
+                self.assertGreater(self.assert_rows_acted(), 2)
 
     def test_bodies_and_fix_deform(self):
         self.check("sphere", "deform", (1, 1), (7, 1), (7, 2), (1, 4))
