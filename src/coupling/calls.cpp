@@ -4,11 +4,14 @@
 
 #include "coupling/calls.h"
 #include "coupling/partner.h"
+#include "system/fix_list.h"
 
+#include "fix.h"
 #include "fmt/format.h"
 #include "lammps.h"
 #include "lmptype.h"
 #include "update.h"
+#include "utils.h"
 
 #include <cmath>
 #include <memory>
@@ -83,6 +86,14 @@ int call_get_time(const talus_partner *partner, double *time, double *dt, int64_
 
 namespace {
 
+/// fix deform finds where the box ends, for the length of the run, when a run is set up.
+bool is_set_up_for_a_length(LAMMPS &lmp)
+{
+  for (const Fix *fix : fix_list(*lmp.modify))
+    if (utils::strmatch(fix->style, "^deform")) return true;
+  return false;
+}
+
 void advance(talus_partner &partner, std::int64_t steps)
 {
   if (steps < 0) throw Refusal("steps is " + std::to_string(steps) + ", expected 0 or more");
@@ -90,7 +101,8 @@ void advance(talus_partner &partner, std::int64_t steps)
     throw Refusal("steps is " + std::to_string(steps) + ", expected at most " +
                   std::to_string(MAXSMALLINT));
   partner.set_up_if_needed();
-  if (steps) partner.command("run " + std::to_string(steps) + " pre no post no");
+  const char *const go_on = is_set_up_for_a_length(partner.instance()) ? "" : " pre no";
+  if (steps) partner.command("run " + std::to_string(steps) + go_on + " post no");
   partner.system().definitions().are_present();
 }
 

@@ -188,6 +188,20 @@ r.close()
 lmp.close()
 lmp.finalize()
 """
+DEFORM = HEAD + """
+def length():
+    lo, hi = lmp.extract_box()[:2]
+    return hi[2] - lo[2]
+lmp.commands_string("fix d all deform 1 z erate -0.5 remap x")
+p = Partner(lmp)
+p.advance(0)
+said["windows"] = [length()]
+for steps in 1, 20, 20, 7:
+    p.advance(steps)
+    said["windows"].append(length())
+p.close()
+end()
+"""
 
 
 class Changes(CoupledCase):
@@ -245,6 +259,16 @@ class Changes(CoupledCase):
                     for i, (first, second) in enumerate(zip(*impulses[:2])):
                         for one, two, apart in zip(first, second, (-1.0, 2.0, 0.0)):
                             self.assertLess(abs(one / (0.5 + 0.1 * i) - two / (1.0 + 0.1 * i) - 150 * 5e-4 * apart), 1e-12)
+
+    def test_box_that_deforms(self):
+        """In each window as in a run of its length: by a share of the length that it has when that begins."""
+        for np in 1, 2:
+            said, _ = self.said(DEFORM, np)
+            length = said["windows"][0]
+            self.assertAlmostEqual(length, 6.0, delta=1e-12)
+            for steps, found in zip((1, 20, 20, 7), said["windows"][1:]):
+                length *= 1.0 - 0.5 * steps * 5e-4
+                self.assertAlmostEqual(found, length, delta=1e-12)
 
     def test_out_of_step(self):
         """Rank 0 calls one partner and the others another one: all partners end, on all ranks."""
