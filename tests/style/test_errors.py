@@ -138,7 +138,7 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
     (f"{PLANE} contact types", "fix large/body contact: missing types, e.g. 1 or 1*3", "types"),
     (f"{PLANE} contact types 3 hooke 1 1", "Numeric index 3 is out of bounds (1-2)", None),
     (f"{PLANE} contact types hooke 1 1", "Invalid range string: hooke", None),
-    (f"{PLANE} {LAW} turn none", "fix large/body: unknown word 'turn', expected contact, two-sided",
+    (f"{PLANE} {LAW} turn none", "fix large/body: unknown word 'turn', expected contact, type, two-sided",
      "turn"),
     (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact, "
      "two-sided", "onesided"),
@@ -228,7 +228,7 @@ class Errors(SceneCase):
                               "fix large/body contact: " + message, word)
         for words, word in SURPLUS[:3]:
             self.assert_error(f"{box()}fix f all large/body {PLANE} contact {words}", "fix large/body: "
-                              f"unknown word '{word}', expected contact, two-sided", word)
+                              f"unknown word '{word}', expected contact, type, two-sided", word)
 
     def test_large_body(self):
         for words, message, word in LARGE_BODY:
