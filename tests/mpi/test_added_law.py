@@ -67,7 +67,7 @@ class AddedLaw(SceneCase):
 
         log = self.run_lammps(again, expect_error=True, env={}).log
         self.assertRegex(log, r"ERROR: Pair style gran/penalty: types 1 and 1: the restart file has the normal law "
-                              r"'stiffening' \(version 3\), which this Talus does not have: write a data file")
+                              r"'stiffening', which this Talus does not have: write a data file")
 
     def test_impact(self):
         """Two spheres meet at 2 v: duration pi sqrt(m_eff/K) with K = k (1 + 2 v/v_s), no energy lost."""

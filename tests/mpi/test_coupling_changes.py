@@ -192,8 +192,8 @@ DEFORM = HEAD + """
 def length():
     lo, hi = lmp.extract_box()[:2]
     return hi[2] - lo[2]
-lmp.commands_string("fix d all deform 1 z erate -0.5 remap x")
-p = Partner(lmp)
+p = new()
+lmp.command("fix d all deform 1 z erate -0.5 remap x")
 p.advance(0)
 said["windows"] = [length()]
 for steps in 1, 20, 20, 7:
