@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=240
+# ctest: timeout=500 cost=60
 """Asking for contacts changes nothing, and what is told is what acted: with particles that fix deform or press/berendsen move
 at the end of each step the trajectory has the same bits with outputs and without, at any interval, on any number of
 ranks; and the forces of the rows add up to those that acted on each particle, also where contacts that were there are gone
