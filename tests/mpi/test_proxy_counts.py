@@ -54,9 +54,9 @@ IN_RECORDS = "steps without output              in the records"
 
 
 def grains():
-    """At rest, and without contacts."""
+    """Nearly at rest, and without contacts: where nothing moves at all, each step asks whether that is still so."""
     draw = random.Random(8)
-    return [Sphere(tuple(s + 0.5 + draw.uniform(-0.2, 0.2) for s in site), diameter=0.5)
+    return [Sphere(tuple(s + 0.5 + draw.uniform(-0.2, 0.2) for s in site), v=(1e-9, 0, 0), diameter=0.5)
             for site in itertools.product(*(range(int(length)) for length in BOX))]
 
 

@@ -140,7 +140,7 @@ LARGE_BODY = [    # words after fix f all large/body, message, marked word
     (f"{PLANE} contact types hooke 1 1", "Invalid range string: hooke", None),
     (f"{PLANE} {LAW} turn none", "fix large/body: unknown word 'turn', expected contact, type, two-sided",
      "turn"),
-    (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact, "
+    (f"{PLANE} onesided {LAW}", "fix large/body: unknown word 'onesided', expected contact, type, "
      "two-sided", "onesided"),
 ]
 
