@@ -9,6 +9,7 @@
 #include "histories_of.h"
 #include "packing.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -238,7 +239,7 @@ TEST_P(BodyContactsTest, WhatIsToldIsWhatActed)
       EXPECT_EQ(one.center[0].z, place[one.i][2]);
       EXPECT_GT(one.overlap, 0.0);
       EXPECT_GT(one.stored.normal, 0.0);
-      EXPECT_NEAR(length(one.arm[0]), p.radius[one.i] - one.overlap, 1e-12);
+      EXPECT_NEAR(length(one.arm[0]), std::abs(p.radius[one.i] - one.overlap), 1e-12);
     });
     EXPECT_GT(count, 20);
     EXPECT_EQ(sum, force);

@@ -71,7 +71,7 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
     }
     EXPECT_EQ(find_law(stage, "no such law"), nullptr);
   }
-  EXPECT_EQ(count, 64);
+  EXPECT_EQ(count, 65);
 }
 
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)
