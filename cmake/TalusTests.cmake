@@ -53,6 +53,7 @@ function(talus_set_test_properties test)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
+  math(EXPR arg_TIMEOUT "3 * ${arg_TIMEOUT}")    # a limit is there to end what hangs, also on a machine with other work
   if(CMAKE_CROSSCOMPILING)    # in an emulator
     math(EXPR arg_TIMEOUT "20 * ${arg_TIMEOUT}")
   endif()
