@@ -59,7 +59,7 @@ inline std::string problem_of_isa(const std::string &word, int fastest)
 extern const char *const needed_instructions[];
 
 /// Those of the list that this processor or its operating system lacks, "avx512f, avx512vl"; empty if
-/// the code can run here. Words that nobody knows here are missing.
+/// the code can run here. A word that is not in the table counts as missing.
 inline std::string missing_instructions(const char *const *needed)
 {
   std::string missing;

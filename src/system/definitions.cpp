@@ -140,7 +140,7 @@ template <class List> std::string difference(const List &before, const List &now
 }    // namespace
 
 /* But for what is not the same on all ranks. What is defined and deleted again between two init() of LAMMPS is
-   not there in between. To regions and variables that are new nobody points. */
+   not there in between. Nothing points to regions and variables that are new. */
 
 std::string Definitions::lost_here() const
 {

@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // With what a run was set up: fixes, computes, regions, equal-style variables (fixes know them by their place),
-// the pair style and its laws, the run style, the communication object, and the particles of this rank. Commands between two runs may define, delete or
-// replace any of them, and LAMMPS tells nobody. Who goes on without a set-up (`run ... pre no`, calls of the
+// the pair style and its laws, the run style, the communication object, and the particles of this rank. Commands
+// between two runs may define, delete or replace any of them, and LAMMPS does not tell. Who goes on without a set-up (`run ... pre no`, calls of the
 // coupling, snapshots) asks here before it looks at anything that it remembers.
 //
 // Fixes and computes have numbers, communication objects are watched by ExchangeSwitch; regions have

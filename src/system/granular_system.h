@@ -173,7 +173,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   /// it.
   bool begin_forces(LAMMPS_NS::bigint step, bool tallied);
   /// Outputs may ask for what the forces of the present step are: LAMMPS looks at it, a fix that
-  /// reads at its end, or a group. Whoever computes forces keeps them for that.
+  /// reads at its end, or a group. What computes forces keeps them for that.
   bool may_be_asked() const
   {
     const FixCalls &calls = record_steps.fix_calls();
