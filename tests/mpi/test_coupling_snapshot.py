@@ -17,7 +17,7 @@ BEGIN = """
 import json, sys
 from lammps import lammps
 from talus import Partner
-words, columns, vectors, guided = {words!r}, {columns!r}, {vectors!r}, {guided!r}
+words, columns, vectors, guided, later_in = {words!r}, {columns!r}, {vectors!r}, {guided!r}, {later!r}
 run = sys.argv[1]
 lmp = lammps(cmdargs=["-log", "none", "-screen", "none"] + words)
 lmp.commands_string(open("scene").read())
@@ -57,7 +57,8 @@ partner.advance(895)
 show("later")
 partner.restore(snapshot)
 show("then.2")
-partner.advance(900)
+for steps in later_in:
+    partner.advance(steps)
 show("later.2")
 partner.restore(snapshot)
 partner.advance(5)
@@ -84,7 +85,7 @@ class Snapshots(CoupledCase):
 
     def make(self, scene, run, steps, np=1, threads=1):
         begin = BEGIN.format(words=list(scene.words), columns=scene.columns, vectors=scene.vectors,
-                             guided="fix guided" in scene.script)
+                             guided="fix guided" in scene.script, later=scene.later)
         self.drive(begin + steps + END, run, np=np, env={"OMP_NUM_THREADS": str(threads)}, timeout=200)
         return self.read_json(run + ".numbers")
 

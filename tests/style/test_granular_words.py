@@ -217,15 +217,15 @@ class MaterialOfTheSuffix(SceneCase):
 
 class LawsThatChange(SceneCase):
 
-    def test_before_a_run_without_set_up(self):
-        """Laws that remember and turn, set behind some that do not: from the next neighbor lists on at the latest."""
+    def test_between_runs(self):
+        """Laws that remember and turn, set behind some that do not."""
         write_sphere_data(self.path("data"), ((-0.7, 5.3), (-0.7, 5.3), (-0.7, 5.3)), heap())
         periodic = SCENE.replace("boundary f f f", "boundary p p p")
         for np in 1, 2:
             with self.subTest(ranks=np):
                 self.run_lammps(f"{periodic}read_data data\npair_style gran/penalty\npair_coeff * * hooke 2e4 5.0\n"
                                 f"{PHYSICS.format(more='')}run 100\npair_coeff * * {RICH[0]}\n"
-                                f"run 300 pre no\n{WRITE}", np=np)
+                                f"run 300\n{WRITE}", np=np)
                 last = read_dump(self.path("last"))[-1]
                 self.assertEqual(len(last.atoms), 64)
                 self.assertGreater(max(abs(t) for t in last.column("tqz").values()), 1.0)

@@ -244,8 +244,8 @@ class TimestepCompute(SceneCase):
         for name, (pairs, spheres) in cases.items():
             smallest = min(t for t in self.compute(pairs, spheres)[:3] if t > 0)
             self.assertIsNone(self.warns(pairs, spheres, 0.199 * smallest), name)
-            fraction, critical = self.warns(pairs, spheres, 0.201 * smallest)
-            self.assertEqual(fraction, "0.201", name)
+            fraction, critical = self.warns(pairs, spheres, 0.202 * smallest)
+            self.assertEqual(fraction, "0.202", name)
             self.assert_close(float(critical), smallest, 1e-3)
         self.assertIsNone(self.warns("pair_coeff * * hooke 0.0 0.0", APART, 1.0))
 
