@@ -65,7 +65,6 @@ CASES = {
     "nothing": [],
     "tiled": ["comm_style tiled"],
     "tiled, rcb": ["comm_style tiled", "balance 1.0 rcb"],
-    "tiled and back": ["comm_style tiled", "comm_style brick"],
     "region gone": ["region reg delete"],
     "region again": ["region reg delete", "region reg block -3 3 -3 3 -3 3"],
     "other region gone": ["region r delete"],
@@ -225,7 +224,7 @@ class Changes(CoupledCase):
                         if name == "region gone":
                             self.assertEqual(code, 2)
                             self.assertIn("egion reg", text)
-                        elif name.startswith("tiled") and name != "tiled and back" and way == "restored":
+                        elif name.startswith("tiled") and way == "restored":
                             self.assertEqual(code, 1)
                             self.assertIn("comm_style is tiled now and was brick when the snapshot was made", text)
                         elif name == "dynamic group" and way == "restored":

@@ -213,7 +213,7 @@ class Exchange(SceneCase):
                 with self.subTest(more=more, before=before):
                     log = self.run_scene(before + more)[0]
                     self.assertEqual(blocks(log)[-1][-1], through_arrays("the exchange is the one of LAMMPS: " + reason))
-        log = self.run_scene("run 1\ncomm_style tiled\nrun 1\ncomm_style brick")[0]
+        log = self.run_scene("run 1\ncomm_style tiled\nrun 1")[0]
         self.assertEqual({b[-1] for b in blocks(log)}, {IN_RECORDS})
 
     def test_minimize_after_a_run(self):

@@ -19,7 +19,7 @@ OPERATIONS = """run 5|run 3|run 3 pre no|run 4 post no|run 7 pre no|run 0|run 6 
 group some id 1:3|group some id 2 4|group moving dynamic all every 2|group ball dynamic all region ball every 3;run 5 pre no
 group moving static|region ball sphere 1 1 1 2 units box|region ball sphere 1 1 1 3 side out units box|region ball delete
 region of_b0 delete|region of_b0 delete;run 2|region whole delete|@save s;region of_b0 delete;@restore s;@advance 3
-comm_style tiled|comm_style tiled;balance 1.0 rcb|comm_style brick|balance 1.0 shift xyz 5 1.0|balance 1.0 x uniform
+comm_style tiled|comm_style tiled;balance 1.0 rcb|balance 1.0 shift xyz 5 1.0|balance 1.0 x uniform
 comm_style tiled;balance 1.0 rcb;change_box all x final -8 8;run 5|fix even all balance 3 1.0 shift xyz 3 1.1
 comm_style tiled;fix even all balance 5 1.0 rcb|unfix even|change_box all x final -8 8|change_box all boundary f f s
 change_box all z scale 1.1 remap|change_box all triclinic|@advance 4;comm_style tiled;@advance 30|@save s;comm_style tiled;@restore s;@advance 5
