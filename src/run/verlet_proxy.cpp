@@ -114,7 +114,8 @@ void VerletProxy::go_on_without_set_up()
 
 void VerletProxy::run(int n)
 {
-  if (!set_up && system->has_pair_style()) go_on_without_set_up();
+  if (!set_up && (system->has_pair_style() || system->definitions().have_another_pair_style()))
+    go_on_without_set_up();
   set_up = false;
   if (ProxyUpdates *proxies = system->exchange().direct()) {
     at_start = proxies->counters();

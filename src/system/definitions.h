@@ -47,6 +47,8 @@ class Definitions : protected LAMMPS_NS::Pointers {
   std::string change() const;
   /// And of which particles each rank owns, in which order.
   std::string change_with_particles() const;
+  /// The pair style is not the one that was set up.
+  bool have_another_pair_style() const { return is_set_up && then.pair != present_pair(); }
   /// Where each rank owns the same particles as then, in the same order: whether ghosts are others, so that
   /// neighbor lists have to be made.
   bool have_other_ghosts() const;

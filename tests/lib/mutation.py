@@ -41,7 +41,7 @@ NUMBERS = ["0", "-1", "1", "3", "1e-320", "1e-12", "0.3", "1e3", "1e12", "1e160"
 NASTY = ["NULL", "*", "3*1", "*0", "99999999999999999999",
          "v_none", "c_none", "f_none", "all", "none", "no", "yes", "x" * 300, "1.5.2", "0x10", "--", "\u00e4"]
 
-CRASHES = "SIG|Segmentation|Aborted|stack smashing|free\\(\\)|corrupted|terminate called|AddressSanitizer|runtime error"
+CRASHES = "SIG|Segmentation|Aborted|stack smashing|free\\(\\)|corrupted(?! LAMMPS restart file)|terminate called|AddressSanitizer|runtime error"
 
 
 # ---- commands ----------------------------------------------------------------------------------

@@ -68,7 +68,7 @@ def environment(extra):
     return env
 
 
-def _processes_of_session(session):
+def processes_of_session(session):
     found = []
     for entry in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -86,7 +86,7 @@ def end_process(process):
         process.wait(timeout=5)
     except (ProcessLookupError, subprocess.TimeoutExpired):
         pass
-    for pid in _processes_of_session(process.pid):
+    for pid in processes_of_session(process.pid):
         try:
             os.kill(pid, signal.SIGKILL)
         except ProcessLookupError:

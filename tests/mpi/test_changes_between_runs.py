@@ -80,6 +80,7 @@ CASES = {
     "variable gone": ("variable before delete", "variable before, or one that was defined before it, has been deleted"),
     "pair_coeff": (OWN.splitlines()[1].replace("1e5", "2e5"), "coefficients of pairs have been changed"),
     "pair style": ("pair_style none\nPAIR", "the pair style has been defined anew"),
+    "pair style of LAMMPS": ("suffix off\nPAIR", "the pair style has been defined anew"),
     "run style": ("run_style verlet", "the run style has been defined anew"),
     "run style in other words": ("run_style verlet/proxy overlap no", "the run style is another one"),
     "tiled": ("comm_style tiled", "comm_style or comm_proxy has been changed"),
@@ -93,6 +94,7 @@ CASES = {
     "timestep": ("timestep 4e-4", ON),
     "dump": ("write_dump all custom there id x", ON),
 }
+ONLY = {"pair_coeff": OWN, "pair style of LAMMPS": STOCK}    # where it is a change
 TILES = """
 units lj
 atom_style sphere
@@ -159,7 +161,7 @@ class ChangesBetweenRuns(CoupledCase):
 
     def assert_cases(self, pair, np):
         cases = {name: (commands.replace("PAIR", pair), says) for name, (commands, says) in CASES.items()
-                 if name != "pair_coeff" or pair == OWN}
+                 if name not in ONLY or pair == ONLY[name]}
         run = f"run{np}"
         found = self.texts(SCENE.replace("PAIR", pair), cases, run, np)
         for name, (_, says) in cases.items():

@@ -26,10 +26,15 @@ def read_restart(scene, name):
 
 # ---- outputs ------------------------------------------------------------------------------------
 
+def _gone(program):
+    return {words[1] for words in program if words[0] == "unfix"}
+
+
 def output(rng, scene, n):
     """Lines, behind the physics, that ask for something every few steps; it must not matter."""
     every, name = rng.choice((1, 2, 3, 7, 10)), f"o{n}"
-    fixes = [words[1] for words in scene.physics if words[0] == "fix" and "contact" in words]
+    gone = _gone(scene.program)
+    fixes = [words[1] for words in scene.physics if words[0] == "fix" and "contact" in words and words[1] not in gone]
     kinds = [contact_rows, contact_counts, stats, dissipation, stress, grid, dump_of_particles, vtk, averages, restarts, energies]
     return rng.choice(kinds)(rng, name, every, fixes, scene)
 
@@ -96,7 +101,7 @@ def lifecycle(rng, scene):
         made = rng.choice(COMMANDS)(rng, scene)
         if made:
             program += [*made, ("run", rng.choice((5, 15, 30)))]
-    gone = {words[1] for words in program if words[0] == "unfix"}
+    gone = _gone(program)
     return scene.but(program=tuple(program), vectors=tuple(vector for vector in scene.vectors if vector[0] not in gone))
 
 

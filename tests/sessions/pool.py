@@ -11,6 +11,7 @@ import os
 import select
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,7 @@ import threading
 import time
 
 from coupled_case import host_environment
-from talus_testing import MPIEXEC, SLOWER, cores_held, end_process, environment
+from talus_testing import MPIEXEC, SLOWER, cores_held, end_process, environment, processes_of_session
 
 WORKER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worker.py")
 SHARED = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None    # memory, where there is some
@@ -100,9 +101,21 @@ class Process:
                 break
             if gone or time.monotonic() > end:
                 self.dead = True
+                if not gone:
+                    self._ask_where()
                 return (CRASH if gone else HANG), self._end_of_output()
         problem = max(found.values(), key=len)
         return (ERROR if problem else OK), problem
+
+    def _ask_where(self):
+        """Of ranks that hang: Open MPI lists the calls of a process that gets this signal."""
+        for pid in processes_of_session(self.process.pid):
+            if self.ranks == 1 or pid != self.process.pid:
+                try:
+                    os.kill(pid, signal.SIGSEGV)
+                except ProcessLookupError:
+                    pass
+        time.sleep(1.0)
 
     def _end_of_output(self):
         self.output.seek(0)

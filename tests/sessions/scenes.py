@@ -206,7 +206,8 @@ def of_the_host(rng, periodic=False, moves=True):
     in_clumps = any(grain.molecule for grain in found)
     pair = (line("pair_style granular"), line("pair_coeff * *", words)) if granular else (line("pair_style", style, words),
                                                                                          line("pair_coeff * *"))
-    physics = [*pair, *neighbors(rng, (0.0, 0.1, 0.3))]
+    # without a skin LAMMPS takes pairs that adhere beyond touch from its lists
+    physics = [*pair, *neighbors(rng, (0.1, 0.3) if "jkr" in text(words) else (0.0, 0.1, 0.3))]
     if in_clumps:
         physics += [*MEMBERS_APART, line("fix step all rigid/small molecule")]
     else:

@@ -14,6 +14,7 @@ import itertools
 import json
 import os
 import random
+import signal
 import subprocess
 import sys
 import time
@@ -98,9 +99,10 @@ class Judge:
             return ""
         self.faults[name] += 1
         again = self.soon if fault.startswith(HANG) else self.pool.run
-        case, fault = shrink(relation, again, case, fault, self.shrinking)
-        fault, sessions = relation.check(again, *case)
-        return f"== {name} {seed}: {fault}\n\n" + "\n".join(spelled(session) for session in sessions)
+        case, _ = shrink(relation, again, case, fault, self.shrinking)
+        at_last, small = relation.check(again, *case)
+        said = at_last or "once and not again: " + fault
+        return f"== {name} {seed}: {said}\n\n" + "\n".join(spelled(session) for session in (small if at_last else sessions))
 
 
 def rounds(first, names=None):
@@ -138,6 +140,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="how many at a time")
     parser.add_argument("--shrink", type=float, default=SHRINKING, help="seconds for making a fault smaller")
     words = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended from outside"))    # and with it the processes of the pool
     with Pool() as pool:
         judge = Judge(pool, words.shrink)
         if words.seed is not None:

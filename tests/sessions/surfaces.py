@@ -173,6 +173,17 @@ def _holds(where, x):
     return abs(d[2]) < long / 2 and math.hypot(d[0], d[1]) < at
 
 
+def _has_foot(where, x):
+    """In a cone: the place of the side that is nearest to x is not beyond its narrow end, where regions have the rim and bodies still the side,
+    at overlaps near a radius."""
+    if where[0] != "round" or where[5] != "inside" or where[6] != "cone":
+        return True
+    _, c, r, r2, long, _, _ = where
+    slope, d = (r - r2) / long, [a - b for a, b in zip(x, c)]
+    gap = r - slope * (d[2] + long / 2) - math.hypot(d[0], d[1])
+    return d[2] + gap * slope / (1 + slope**2) < long / 2
+
+
 def _near_solid(rng):
     """A sphere or a clump somewhere at a solid or in a vessel, often at an edge; centers are not behind the surface, where it ends
     for regions."""
@@ -187,7 +198,7 @@ def _near_solid(rng):
     while True:
         x = tuple(a + rng.uniform(-1, 1) * (h if inside else h + 0.5) for a, h in zip(c, half))
         grains = _put(_clump(rng) if clump else [_grain(rng, (0, 0, 0))], x)
-        if all(_holds(where, grain.place.values) == inside for grain in grains):
+        if all(_holds(where, grain.place.values) == inside and _has_foot(where, grain.place.values) for grain in grains):
             break
     scene, law = _scene(rng, grains, CLUMP if clump else SPHERE, clump)
     return scene, where[:6], law, (kinds[0], *rng.sample(kinds[1:], min(2, len(kinds) - 1)))
