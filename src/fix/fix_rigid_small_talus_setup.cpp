@@ -104,7 +104,8 @@ void FixRigidSmallTalus::require_whole_clumps() const
   tagint mine = MAXTAGINT, first = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!bodytag[i]) continue;
-    const int owner = atom->map(bodytag[i]);
+    // of an ID beyond the largest one that is left map() reads whatever is there
+    const int owner = bodytag[i] <= atom->map_tag_max ? atom->map(bodytag[i]) : -1;
     const bool found = owner >= atom->nlocal || (owner >= 0 && bodyown[owner] >= 0);
     const bool renamed = bodyown[i] >= 0 && bodytag[i] != atom->tag[i];
     if (!found || renamed) mine = std::min(mine, atom->tag[i]);

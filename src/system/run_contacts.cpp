@@ -85,7 +85,8 @@ int RunContacts::present_index(const KeptContact &one, int end) const
   const int last = end == 0 ? one.contact.i : one.contact.j;
   const auto tag = static_cast<tagint>(one.tag[end]);
   if (last < atom->nlocal + atom->nghost && atom->tag[last] == tag) return last;
-  const int found = atom->map_style != Atom::MAP_NONE ? atom->map(tag) : -1;
+  const bool is_in_map = atom->map_style != Atom::MAP_NONE && tag <= atom->map_tag_max;
+  const int found = is_in_map ? atom->map(tag) : -1;
   if (found < 0) error->one(FLERR, kept_are_old, system.style_name());
   return found;
 }

@@ -73,6 +73,9 @@ REFUSED = [
     (f"{FIX}\ngroup gone id 1\ndelete_atoms group gone compress no",
      TITLE + "spheres of clumps are missing or have new IDs, in that of particle 2: .*'mol yes' and 'compress no'"),
     (f"{FIX}\ngroup gone id 1 2\ndelete_atoms group gone", TITLE + "spheres of clumps are missing or have new IDs"),
+    # the largest ID, which the map of LAMMPS does not reach afterwards
+    (f"create_atoms 1 single 1.75 0 0\nset atom 5 mol 2 mass 1 diameter 0.5\ngroup pairs id 5\n{FIX}\nrun 0\ngroup gone id 5\n"
+     "delete_atoms group gone compress no", TITLE + "spheres of clumps are missing or have new IDs, in that of particle 3"),
     (f"{FIX}\nfix_modify move bodyforces early", TITLE + "'fix_modify bodyforces early' is set: use fix rigid/small"),
 ]
 
