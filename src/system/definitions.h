@@ -2,8 +2,9 @@
 //
 // With what a run was set up: fixes, computes, regions, equal-style variables (fixes know them by their place),
 // the pair style and its laws, the run style, the communication object, and the particles of this rank. Commands
-// between two runs may define, delete or replace any of them, and LAMMPS does not tell. Who goes on without a set-up (`run ... pre no`, calls of the
-// coupling, snapshots) asks here before it looks at anything that it remembers.
+// between two runs may define, delete or replace any of them, and LAMMPS does not tell. Who goes on without a
+// set-up (`run ... pre no`, calls of the coupling, snapshots) asks here before it looks at anything that it
+// remembers.
 //
 // Fixes and computes have numbers, communication objects are watched by ExchangeSwitch; regions have
 // neither, and are told apart by what they look like and where they are in memory.

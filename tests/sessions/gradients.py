@@ -2,6 +2,8 @@
 """Relation: without friction and damping the force is minus the gradient of the energy that is told, and the torque that by the angle:
 of any particle with any surface, edges and rims included, and with another particle."""
 
+import re
+
 import bodies
 import body_meshes
 import changes
@@ -129,11 +131,11 @@ def check(run, scene, way, inside, q):
 
 
 def _are_sharp(scene):
-    """Box and box, box and polyhedron: none of them a sphere, none smooth."""
+    """Box and box, box and polyhedron: none of them a sphere, smooth or rounded."""
     what = [text(words) for words in scene.physics]
     shapes = " ".join(one for one in what if one.startswith("fix shapes"))
     flat = [one for one in what if one.startswith("fix b ") and " box " in one and " outside " in one]
-    return "ellipsoid" not in shapes and (bool(flat) or "type 2" in shapes)
+    return bool(shapes) and not re.search("ellipsoid|rounded", shapes) and (bool(flat) or "type 1" in shapes and "type 2" in shapes)
 
 
 def unit4(q):

@@ -236,16 +236,16 @@ class TimestepCompute(SceneCase):
         return found[0] if found else None
 
     def test_warning(self):
-        """Above a fifth of the smallest defined time step, not below, and not if nothing is defined."""
+        """Visibly above a fifth of the smallest defined time step, not below, and not if nothing is defined."""
         cases = {"hooke": ("pair_coeff * * hooke 1e6 10", TOUCHING),
                  "hertz/material": ("pair_coeff * * hertz/material 1e8 0.5 0.3", TOUCHING),
                  "hertz/material, no contact": ("pair_coeff * * hertz/material 1e8 0.5 0.3", APART),
                  "hertz, no contact": ("pair_coeff * * hertz 1e8 10", APART)}
         for name, (pairs, spheres) in cases.items():
             smallest = min(t for t in self.compute(pairs, spheres)[:3] if t > 0)
-            self.assertIsNone(self.warns(pairs, spheres, 0.199 * smallest), name)
-            fraction, critical = self.warns(pairs, spheres, 0.202 * smallest)
-            self.assertEqual(fraction, "0.202", name)
+            self.assertIsNone(self.warns(pairs, spheres, 0.2009 * smallest), name)
+            fraction, critical = self.warns(pairs, spheres, 0.2012 * smallest)
+            self.assertEqual(fraction, "0.201", name)
             self.assert_close(float(critical), smallest, 1e-3)
         self.assertIsNone(self.warns("pair_coeff * * hooke 0.0 0.0", APART, 1.0))
 
