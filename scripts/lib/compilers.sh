@@ -12,6 +12,9 @@ package_of() { printf '%s' "${1/clang++/clang}"; }
 # kind_and_version COMPILER: the first line but for the name by which it was called.
 kind_and_version() { "$1" --version | sed -n '1s/^\(g++\|c++\)[^ ]* //;1p'; }
 
+# can_be_installed PACKAGE: apt takes a name that it does not have for a pattern, and finds others.
+can_be_installed() { apt-cache show "$1" 2>/dev/null | grep -Fx "Package: $1" >/dev/null; }
+
 is_default_compiler() { [[ $(kind_and_version "$1") == "$(kind_and_version "$(host_compiler)")" ]]; }
 
 # other_compiler: one that is older than usual and not that of the build; the first that is there, else the first that
@@ -27,7 +30,7 @@ other_compiler() {
   [[ -z ${TALUS_SKIP_PACKAGES:-} ]] && have apt-cache || return 0
   for compiler in "${TALUS_OLD_COMPILERS[@]}"; do
     package=$(package_of "$compiler")
-    if apt-cache show "$package" >/dev/null 2>&1 && (install_packages "$package") && ! is_default_compiler "$compiler"; then
+    if can_be_installed "$package" && (install_packages "$package") && have "$compiler" && ! is_default_compiler "$compiler"; then
       printf '%s' "$compiler"
       return
     fi
