@@ -231,7 +231,7 @@ if(NOT MPI_HEADERS AND NOT MPI_CXX_FOUND)
 endif()
 talus_check_host_mpi()
 
-# What src/system/lammps_compat.h cannot tell from the version alone.
+# What src/system/host/lammps_compat.h cannot tell from the version alone.
 talus_look_into_host(TALUS_HOST_HAS_ATOM2CUT pair.h "virtual double atom2cut")
 talus_look_into_host(TALUS_HOST_HAS_RUN_PLUGINS PLUGIN/plugin.cpp "== \"run\"")
 talus_look_into_host(TALUS_HOST_TELLS_FORMULAS variable.h "std::string get_info\\(int")

@@ -1,11 +1,13 @@
 # The styles: what needs LAMMPS.
 
-talus_glob(talus_style_sources system pair fix compute dump fill comm run coupling)
+set(talus_rooms bodies contacts exchange host loads monitor regions shapes snapshot step)
+list(TRANSFORM talus_rooms PREPEND system/)
+talus_glob(talus_style_sources ${talus_rooms} pair fix/body fix/clump fix/motion fix/shape fix/wall compute dump fill comm run coupling)
 
 # What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
 # talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
 if(NOT TALUS_HOST_HAS_GRANULAR)
-  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall_law)")
+  set(talus_granular "#include +\"(pair_gran|fix_freeze|fix_pour|fix_wall_gran|gran_sub_mod|granular_model|fix/wall/wall_law)")
   foreach(source IN LISTS talus_style_sources)
     string(REGEX REPLACE "\\.cpp$" ".h" header "${source}")
     set(found "")

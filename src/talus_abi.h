@@ -9,7 +9,7 @@
 #ifndef TALUS_TALUS_ABI_H
 #define TALUS_TALUS_ABI_H
 
-#include "system/lammps_compat.h"
+#include "system/host/lammps_compat.h"
 
 #if defined(LAMMPS_BIGBIG)
 #define TALUS_SIZES bigbig

@@ -17,33 +17,33 @@
 #include "dump/dump_vtk_gran.h"
 #include "fill/fill_region.h"
 #include "fill/fix_pour_rate.h"
-#include "fix/fix_gravity_talus.h"
-#include "fix/fix_large_body.h"
-#include "fix/fix_nve_sphere_symplectic.h"
-#include "fix/fix_nve_sphere_talus.h"
-#include "fix/fix_shape_gran.h"
+#include "fix/body/fix_large_body.h"
+#include "fix/motion/fix_gravity_talus.h"
+#include "fix/motion/fix_nve_sphere_symplectic.h"
+#include "fix/motion/fix_nve_sphere_talus.h"
+#include "fix/shape/fix_shape_gran.h"
 #include "pair/pair_gran_penalty.h"
 #if TALUS_HOST_HAS_GRANULAR
 #include "pair/pair_gran_talus.h"
 #include "pair/pair_granular_talus.h"
 #endif
 #include "run/verlet_proxy.h"
-#include "system/compute_contact_list.h"
-#include "system/exchange_switch.h"
-#include "system/fix_contact_store.h"
-#include "system/fix_external_loads.h"
-#include "system/fix_pair_history.h"
-#include "system/lammps_compat.h"
-#include "system/system_run_style.h"
+#include "system/contacts/compute_contact_list.h"
+#include "system/contacts/fix_contact_store.h"
+#include "system/contacts/fix_pair_history.h"
+#include "system/exchange/exchange_switch.h"
+#include "system/host/lammps_compat.h"
+#include "system/host/system_run_style.h"
+#include "system/loads/fix_external_loads.h"
 #include "talus_abi.h"
 
 #if TALUS_HOST_HAS_RIGID
-#include "fix/fix_rigid_small_symplectic.h"
-#include "fix/fix_rigid_small_talus.h"
+#include "fix/clump/fix_rigid_small_symplectic.h"
+#include "fix/clump/fix_rigid_small_talus.h"
 #endif
 #if TALUS_HOST_HAS_GRANULAR
-#include "fix/fix_wall_gran_region_talus.h"
-#include "fix/fix_wall_gran_talus.h"
+#include "fix/wall/fix_wall_gran_region_talus.h"
+#include "fix/wall/fix_wall_gran_talus.h"
 #endif
 
 #include "comm.h"
@@ -67,7 +67,7 @@
 #include <cstring>
 
 #if TALUS_HOST_HAS_GRANULAR
-#include "fix/fix_freeze_talus.h"
+#include "fix/motion/fix_freeze_talus.h"
 #endif
 
 #define TALUS_INFO "Talus " TALUS_VERSION " "

@@ -10,8 +10,8 @@ import machine
 
 # Files below src, by path without extension; first match counts. What is not named (commands, base) has no stage.
 PLACES = (
-    ("integration", r"^particles/.*(motion|integrat)|^fix/(fix_nve|constant_gravity)"),
-    ("floor and walls", r"^body/|^fix/(fix_)?large_body|^fix/region_shape"),
+    ("integration", r"^particles/.*(motion|integrat)|^fix/motion/"),
+    ("floor and walls", r"^body/|^fix/body/|^system/(bodies|regions)/"),
     ("broad phase", r"^neighbors/|^particles/.*(order|key)|^history/.*(kept|partner|rebuild)|^system/.*(contact_store|neighbor|rebuild)"),
     ("narrow phase", r"^contact/narrow_phase|^history/"),
     ("exchange", r"^(exchange|comm)/"),

@@ -34,6 +34,9 @@ class SavedState {
 
 class StateExchange {
  public:
+  /// Each rank has its own; see state_numbers.h for the other kind.
+  static constexpr bool of_each_rank = true;
+
   /// Saves behind what is there.
   explicit StateExchange(SavedState &to) : saved(&to), from(&to) {}
   /// Restores from the beginning.

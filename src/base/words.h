@@ -2,7 +2,7 @@
 //
 // The words of a command, read one after another; the only reader of words that Talus has. Whatever
 // is wrong ends in one call of `fail` with the index of the word and a text that names the command,
-// the word and what was expected. No LAMMPS: see system/command_words.h for the one that calls
+// the word and what was expected. No LAMMPS: see system/host/command_words.h for the one that calls
 // error->all().
 
 #ifndef TALUS_BASE_WORDS_H

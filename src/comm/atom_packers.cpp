@@ -2,7 +2,7 @@
 
 #include "comm/atom_packers.h"
 
-#include "system/present_box.h"
+#include "system/host/present_box.h"
 
 #include "atom.h"
 #include "atom_vec.h"

@@ -4,7 +4,7 @@
 
 #include "exchange/exchange_plan.h"
 #include "exchange/exchange_tags.h"
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "atom_vec.h"

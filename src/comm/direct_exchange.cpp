@@ -3,7 +3,7 @@
 #include "comm/direct_exchange.h"
 
 #include "exchange/exchange_tags.h"
-#include "system/system_shapes.h"
+#include "system/shapes/shaped_particles.h"
 
 #include "atom.h"
 #include "atom_vec.h"

@@ -12,7 +12,7 @@
 #include "exchange/packer_with_rows.h"
 #include "exchange/proxy_exchange.h"
 
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 
 #include <memory>
 #include <string>

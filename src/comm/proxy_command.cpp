@@ -2,9 +2,9 @@
 
 #include "comm/proxy_command.h"
 
-#include "system/command_words.h"
-#include "system/exchange_report.h"
-#include "system/granular_system.h"
+#include "system/host/command_words.h"
+#include "system/monitor/exchange_report.h"
+#include "system/step/granular_system.h"
 
 #include "comm.h"
 #include "domain.h"

@@ -3,8 +3,8 @@
 #include "compute/compute_coarse_grid.h"
 
 #include "base/words.h"
-#include "system/command_words.h"
-#include "system/particle_volume.h"
+#include "system/host/command_words.h"
+#include "system/host/particle_volume.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -227,7 +227,7 @@ double *ComputeCoarseGrid::moments_of(const CoarseKernel::Share &share)
 
 void ComputeCoarseGrid::add_particles()
 {
-  const SystemShapes *shapes = system->shapes();
+  const ShapedParticles *shapes = system->shapes();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double m = atom->rmass[i], *v = atom->v[i];

@@ -8,10 +8,10 @@
 #define LMP_COMPUTE_COARSE_GRID_H
 
 #include "compute/grid_sum.h"
-#include "system/coarse_kernel.h"
-#include "system/contact_list.h"
-#include "system/contact_observer.h"
-#include "system/granular_system.h"
+#include "system/contacts/contact_list.h"
+#include "system/contacts/contact_observer.h"
+#include "system/loads/coarse_kernel.h"
+#include "system/step/granular_system.h"
 
 #include "compute.h"
 

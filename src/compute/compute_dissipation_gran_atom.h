@@ -8,7 +8,7 @@
 
 #include "compute.h"
 
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 
 #include <memory>
 #include <string>

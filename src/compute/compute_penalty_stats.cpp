@@ -2,7 +2,7 @@
 
 #include "compute/compute_penalty_stats.h"
 
-#include "system/system_shapes.h"
+#include "system/shapes/shaped_particles.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -82,9 +82,10 @@ ComputePenaltyStats::ContactSums ComputePenaltyStats::sum_contacts() const
 
 double ComputePenaltyStats::radius_of(int i) const
 {
-  const Talus::SystemShapes *shapes = system->shapes();
+  const Talus::ShapedParticles *shapes = system->shapes();
   const int type = atom->type[i];
-  return shapes && shapes->is_shaped(type) ? shapes->inner_radius_of(type) : atom->radius[i];
+  return shapes && shapes->is_shaped(type) ? shapes->table().of(type)->shape().inscribed_radius()
+                                           : atom->radius[i];
 }
 
 void ComputePenaltyStats::compute_vector()

@@ -1,14 +1,14 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// compute ID group timestep/gran: critical time steps (see system/critical_time_step.h) and the
+// compute ID group timestep/gran: critical time steps (see system/monitor/critical_time_step.h) and the
 // present time step as a fraction of each. doc/compute_timestep_gran.md is the user's page.
 
 #ifndef LMP_COMPUTE_TIMESTEP_GRAN_H
 #define LMP_COMPUTE_TIMESTEP_GRAN_H
 
 #include "compute.h"
-#include "system/critical_time_step.h"
-#include "system/granular_system.h"
+#include "system/monitor/critical_time_step.h"
+#include "system/step/granular_system.h"
 
 #include <memory>
 

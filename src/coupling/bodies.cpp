@@ -7,9 +7,8 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
-#include "system/granular_system.h"
-#include "system/large_body.h"
-#include "system/steered_body.h"
+#include "system/bodies/large_body.h"
+#include "system/step/granular_system.h"
 
 #include "fix.h"
 
@@ -23,11 +22,10 @@ LargeBody &body_of(talus_partner &partner, const char *given)
 {
   const std::string id = partner.text_of("body", given);
   LargeBody *const body = partner.system().bodies().find(id);
-  if (body && body->as_steered()) return *body;
+  if (body) return *body;
   std::string known;
   for (LargeBody *one : partner.system().bodies().in_order())
-    if (one->as_steered())
-      known += std::string(known.empty() ? ", only " : ", ") + one->command()->id;
+    known += std::string(known.empty() ? ", only " : ", ") + one->command()->id;
   throw Refusal("there is no fix large/body '" + id + "'" + known);
 }
 
@@ -43,7 +41,7 @@ int call_put_body_state(talus_partner *partner, const char *body, const double *
                         int64_t steps)
 {
   return partner->collective("talus_put_body_state", [&] {
-    SteeredBody &steered = *body_of(*partner, body).as_steered();
+    LargeBody &steered = body_of(*partner, body);
     const std::vector<double> numbers = partner->numbers_of("state", state, BodyState::size);
     const int ahead = steps_ahead(*partner, steps);
     const std::string problem = steered.guide(BodyState::from_array(numbers.data()), ahead);
@@ -55,7 +53,7 @@ int call_get_body_state(talus_partner *partner, const char *body, double *state)
 {
   return partner->collective("talus_get_body_state", [&] {
     std::vector<double> numbers(BodyState::size);
-    body_of(*partner, body).as_steered()->present_state().to_array(numbers.data());
+    body_of(*partner, body).frame().state.to_array(numbers.data());
     partner->give(state, numbers);
   });
 }

@@ -4,7 +4,7 @@
 
 #include "coupling/calls.h"
 #include "coupling/partner.h"
-#include "system/fix_list.h"
+#include "system/host/fix_list.h"
 
 #include "fix.h"
 #include "fmt/format.h"

@@ -5,9 +5,9 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
-#include "system/external_loads.h"
-#include "system/grid_field.h"
-#include "system/particle_volume.h"
+#include "system/host/particle_volume.h"
+#include "system/loads/external_loads.h"
+#include "system/loads/grid_field.h"
 
 #include "atom.h"
 
@@ -62,7 +62,7 @@ int call_get_field(talus_partner *partner, const double *lo, const double *hi, c
     const Atom &atom = *partner->instance().atom;
     if (!atom.radius_flag || !atom.rmass_flag)
       throw Refusal("particles have no radius and mass of their own: use 'atom_style sphere'");
-    const SystemShapes *const shapes = partner->system().shapes();
+    const ShapedParticles *const shapes = partner->system().shapes();
     ExternalLoads &loads = partner->system().external_loads();
     const bool with_solid = partner->has("solid", solid),
                with_momentum = partner->has("momentum", momentum),

@@ -7,8 +7,7 @@
 #include "coupling/partner.h"
 
 #include "body/shape/mesh_shape.h"
-#include "system/deforming_body.h"
-#include "system/large_body.h"
+#include "system/bodies/large_body.h"
 
 #include <optional>
 
@@ -22,12 +21,12 @@ const TriangleMesh &mesh_of(LargeBody &body)
   return mesh->surface();
 }
 
-DeformingBody &deforming(LargeBody &body)
+LargeBodyVertices &vertices_of(LargeBody &body)
 {
-  if (!body.as_deforming())
+  if (!body.vertices())
     throw Refusal("the vertices of " + body.name() +
                   " are not moved by a partner: use 'mesh ... move vertices'");
-  return *body.as_deforming();
+  return *body.vertices();
 }
 
 std::vector<double> numbers_in(const std::vector<Vector3<double>> &vectors)
@@ -66,7 +65,7 @@ int call_get_mesh(talus_partner *partner, const char *body, double *x, int64_t *
     const TriangleMesh &mesh = mesh_of(given);
     std::vector<Vector3<double>> places;
     for (int v = 0; v < mesh.num_own_vertices(); v++)
-      places.push_back(given.present_frame().point_to_space(mesh.vertex(v)));
+      places.push_back(given.frame().point_to_space(mesh.vertex(v)));
     std::vector<std::int64_t> corners;
     for (int t = 0; t < mesh.num_own(); t++)
       for (const int v : mesh.corners(t).vertex) corners.push_back(v);
@@ -80,14 +79,14 @@ int call_put_vertices(talus_partner *partner, const char *body, const double *x,
 {
   return partner->collective("talus_put_vertices", [&] {
     LargeBody &given = body_of(*partner, body);
-    DeformingBody &moved = deforming(given);
+    vertices_of(given);
     const std::int64_t count = 3L * mesh_of(given).num_own_vertices();
     const std::vector<Vector3<double>> places = vectors_in(partner->numbers_of("x", x, count));
     std::optional<std::vector<Vector3<double>>> velocities;
     if (partner->has("v", v)) velocities = vectors_in(partner->numbers_of("v", v, count));
     const int ahead = steps_ahead(*partner, steps);
     const std::string problem =
-        moved.guide_vertices(places, velocities ? &*velocities : nullptr, ahead);
+        given.guide_vertices(places, velocities ? &*velocities : nullptr, ahead);
     if (!problem.empty()) throw Refusal(problem);
   });
 }
@@ -96,7 +95,7 @@ int call_get_vertex_loads(talus_partner *partner, const char *body, int64_t *tou
                           int64_t *numbers, double *impulses, double *work, double *duration)
 {
   return partner->collective("talus_get_vertex_loads", [&] {
-    const VertexImpulses found = deforming(body_of(*partner, body)).take_impulses();
+    const VertexImpulses found = vertices_of(body_of(*partner, body)).take();
     partner->give(touched,
                   std::vector<std::int64_t>{static_cast<std::int64_t>(found.vertices.size())});
     partner->give(numbers, found.vertices);

@@ -7,9 +7,9 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
-#include "system/external_loads.h"
-#include "system/particle_count.h"
-#include "system/particles_by_id.h"
+#include "system/host/particle_count.h"
+#include "system/host/particles_by_id.h"
+#include "system/loads/external_loads.h"
 
 #include "atom.h"
 

@@ -8,7 +8,7 @@
 
 #include "coupling/talus.h"
 
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 
 #include "pointers.h"
 

@@ -5,7 +5,7 @@
 #include "coupling/calls.h"
 #include "coupling/partner.h"
 
-#include "system/snapshot.h"
+#include "system/snapshot/snapshot.h"
 
 #include <memory>
 #include <new>

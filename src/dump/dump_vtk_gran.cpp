@@ -2,9 +2,9 @@
 
 #include "dump/dump_vtk_gran.h"
 
-#include "system/compute_contact_list.h"
-#include "system/present_time.h"
-#include "system/system_shapes.h"
+#include "system/contacts/compute_contact_list.h"
+#include "system/host/present_time.h"
+#include "system/shapes/shaped_particles.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -7,7 +7,7 @@
 #ifndef LMP_DUMP_VTK_GRAN_H
 #define LMP_DUMP_VTK_GRAN_H
 
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 #include "vtk/poly_data.h"
 #include "vtk/time_series.h"
 

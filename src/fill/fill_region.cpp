@@ -4,7 +4,7 @@
 
 #include "fill/region_space.h"
 #include "packing/random_packing.h"
-#include "system/command_words.h"
+#include "system/host/command_words.h"
 
 #include "atom.h"
 #include "comm.h"

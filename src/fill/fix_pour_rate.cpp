@@ -3,8 +3,8 @@
 #include "fill/fix_pour_rate.h"
 
 #include "fill/region_space.h"
-#include "system/command_words.h"
-#include "system/restart_data.h"
+#include "system/host/command_words.h"
+#include "system/host/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"

@@ -3,9 +3,9 @@
 #include "fill/region_space.h"
 
 #include "base/linear_algebra.h"
-#include "system/lammps_compat.h"
-#include "system/private_members.h"
-#include "system/time_formula.h"
+#include "system/host/lammps_compat.h"
+#include "system/host/private_members.h"
+#include "system/host/time_formula.h"
 
 #include "domain.h"
 #include "error.h"

@@ -7,8 +7,8 @@
 
 #include "pair/accelerated_pair.h"
 #include "pair/pair_of_system_impl.h"
-#include "system/fix_list.h"
-#include "system/private_members.h"
+#include "system/host/fix_list.h"
+#include "system/host/private_members.h"
 
 #include "atom.h"
 #include "comm.h"

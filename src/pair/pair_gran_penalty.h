@@ -8,7 +8,7 @@
 #define LMP_PAIR_GRAN_PENALTY_H
 
 #include "pair/pair_of_system.h"
-#include "system/lammps_compat.h"
+#include "system/host/lammps_compat.h"
 
 #include <cstdint>
 

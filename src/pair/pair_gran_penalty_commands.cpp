@@ -5,7 +5,7 @@
 #include "pair/pair_gran_penalty.h"
 
 #include "laws/contact_words.h"
-#include "system/command_words.h"
+#include "system/host/command_words.h"
 
 #include "atom.h"
 #include "error.h"

@@ -6,7 +6,7 @@
 #include "pair/pair_gran_penalty.h"
 
 #include "material/law_file.h"
-#include "system/restart_data.h"
+#include "system/host/restart_data.h"
 
 #include "atom.h"
 #include "comm.h"

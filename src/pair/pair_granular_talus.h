@@ -8,7 +8,7 @@
 #define LMP_PAIR_GRANULAR_TALUS_H
 
 #include "pair/accelerated_pair.h"
-#include "system/granular_spec.h"
+#include "system/contacts/granular_spec.h"
 
 #include "pair_granular.h"
 

@@ -8,8 +8,8 @@
 #define LMP_PAIR_OF_SYSTEM_H
 
 #include "laws/contact_lanes.h"
-#include "system/granular_system.h"
-#include "system/system_pair.h"
+#include "system/host/system_pair.h"
+#include "system/step/granular_system.h"
 
 #include "pair.h"
 

@@ -10,7 +10,7 @@
 #include "contact/state_of_pair.h"
 #include "laws/intersection_radius.h"
 #include "laws/tangential/end_of_contact.h"
-#include "system/private_members.h"
+#include "system/host/private_members.h"
 
 #include "atom.h"
 #include "bond.h"

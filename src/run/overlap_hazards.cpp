@@ -2,8 +2,8 @@
 
 #include "run/overlap_hazards.h"
 
-#include "system/fix_list.h"
-#include "system/granular_system.h"
+#include "system/host/fix_list.h"
+#include "system/step/granular_system.h"
 
 #include "fix.h"
 #include "force.h"

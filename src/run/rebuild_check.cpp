@@ -2,7 +2,7 @@
 
 #include "run/rebuild_check.h"
 
-#include "system/granular_system.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"

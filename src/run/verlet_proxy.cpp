@@ -4,8 +4,8 @@
 
 #include "run/machines.h"
 #include "run/overlap_hazards.h"
-#include "system/command_words.h"
-#include "system/exchange_report.h"
+#include "system/host/command_words.h"
+#include "system/monitor/exchange_report.h"
 
 #include "angle.h"
 #include "atom.h"

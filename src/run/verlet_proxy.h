@@ -12,8 +12,8 @@
 #define LMP_VERLET_PROXY_H
 
 #include "run/rebuild_check.h"
-#include "system/granular_system.h"
-#include "system/system_run_style.h"
+#include "system/host/system_run_style.h"
+#include "system/step/granular_system.h"
 
 #include "verlet.h"
 

@@ -213,7 +213,7 @@ class Profile(unittest.TestCase):
         "particles/store.cpp": "const int *Store::read(int k)\n{\n}\n",
         "particles/store_motion.cpp": "void Store::move()\n{\n}\n",
         "base/loops.h": "template <class Body> void in_loops(int n, const Body &body)\n{\n}\nstruct Small {\n};\n",
-        "fix/large_body_part.h": "class Part {\n};\n",
+        "fix/body/large_body_part.h": "class Part {\n};\n",
     }
 
     def test_functions_belong_to_the_stage_of_their_file(self):

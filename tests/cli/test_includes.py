@@ -40,9 +40,10 @@ def reachable(table, folder):
 
 
 def folder_of(path):
-    """The folder of the table that a file in src belongs to: contact laws have one for all their stages."""
+    """The folder of the table that a file in src belongs to: some have rooms, and one row for all of them."""
     folder = str(Path(path).parent).strip(".")
-    return "laws" if folder.startswith("laws/") else folder
+    first = folder.split("/")[0]
+    return first if first in ("laws", "system", "fix") else folder
 
 
 def target_of(source, bracket, name):

@@ -8,7 +8,7 @@
 //
 // Prints "windows N" (steps whose window was seen on rank 0) and "survived" when all went well.
 
-#include "system/proxy_updates.h"
+#include "system/exchange/proxy_updates.h"
 
 #include "atom.h"
 #include "comm.h"

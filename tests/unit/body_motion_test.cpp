@@ -3,6 +3,7 @@
 // How bodies move: rotations, prescribed motions and their clock, guided motion, free rigid bodies,
 // and bodies that hold a force.
 
+#include "base/state_numbers.h"
 #include "body/motion/body_state.h"
 #include "body/motion/external_motion.h"
 #include "body/motion/prescribed_motion.h"
@@ -22,6 +23,20 @@ namespace {
 using V = Vector3<double>;
 const double pi = std::acos(-1.0);
 const Eigen::Quaterniond one = Eigen::Quaterniond::Identity();
+
+/* As a restart file takes it. */
+
+template <class Part> Part copied_through_numbers(Part &part)
+{
+  std::vector<double> numbers;
+  StateNumbers writing(numbers);
+  part.exchange_state(writing);
+  Part copy;
+  StateNumbers reading(numbers.data(), numbers.data() + numbers.size());
+  copy.exchange_state(reading);
+  EXPECT_TRUE(reading.fits());
+  return copy;
+}
 
 TEST(BodyRotation, TurnsAndTurnsBack)
 {
@@ -125,10 +140,7 @@ TEST(BodyMotion, GuidedBodyReachesTheGivenBits)
     EXPECT_NEAR(state.orientation.angularDistance(one), 0.9 * w, 1e-14);
     EXPECT_NEAR(length(state.velocity - w * target.velocity), 0.0, 1e-15);
   }
-  double saved[ExternalMotion::size];
-  guide.to_array(saved);
-  ExternalMotion restarted;
-  restarted.from_array(saved);
+  ExternalMotion restarted = copied_through_numbers(guide);
   restarted.advance(state, 0.1);
   double found[BodyState::size], expected[BodyState::size];
   state.to_array(found);
@@ -339,10 +351,7 @@ TEST(ServoTest, DampingIsFoundAndForgotten)
   EXPECT_NEAR(response.damping(), 500.0, 1e-9);
   EXPECT_NEAR(response.product(1.0e-3), 0.5, 1e-12);
   EXPECT_NEAR(response.next_rate(1.0, 0.1), rate + (1.0 - rate) / 51.0, 1e-12);
-  double all[ServoResponse::size];
-  response.to_array(all);
-  ServoResponse copy;
-  copy.from_array(all);
+  const ServoResponse copy = copied_through_numbers(response);
   EXPECT_EQ(copy.next_rate(1.0, 0.1), response.next_rate(1.0, 0.1));
   for (int n = 0; n < 100; n++) flip(0.0);    // nothing is touched
   EXPECT_LT(response.damping(), 1e-6);

@@ -2,7 +2,7 @@
 //
 // The volume of a ball in the kernel of coarse-grained fields, beside the sum over many small parts of it.
 
-#include "system/coarse_kernel.h"
+#include "system/loads/coarse_kernel.h"
 
 #include <gtest/gtest.h>
 

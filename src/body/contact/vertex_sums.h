@@ -58,6 +58,15 @@ class VertexSums {
   std::vector<std::int64_t> packed() const;
   void add_packed(const std::int64_t *begin, const std::int64_t *end);
 
+  template <class Exchange> void exchange_state(Exchange &x)
+  {
+    std::vector<std::int64_t> all = packed();
+    x(all);
+    if (!x.restores()) return;
+    clear();
+    add_packed(all.data(), all.data() + all.size());
+  }
+
   double memory_usage() const
   {
     return static_cast<double>(sums.capacity() * sizeof sums[0] +

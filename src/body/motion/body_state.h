@@ -22,10 +22,15 @@ struct BodyState {
   Vector3<double> omega{0.0, 0.0, 0.0};    ///< angular velocity, axes of space
 
   /// position, orientation (w, x, y, z), velocity, omega: as in the vector of the fix and in
-  /// restart files.
+  /// calls of other programs.
   static constexpr int size = 13;
   void to_array(double *a) const;
   static BodyState from_array(const double *a);
+
+  template <class Exchange> void exchange_state(Exchange &x)
+  {
+    x(position, orientation, velocity, omega);
+  }
 };
 
 /// Half way between two poses; velocities are not set.

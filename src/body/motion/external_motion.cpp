@@ -33,20 +33,4 @@ void ExternalMotion::advance(BodyState &state, double dt)
   state.omega = start.omega + way * (target.omega - start.omega);
 }
 
-void ExternalMotion::to_array(double *a) const
-{
-  a[0] = steps;
-  a[1] = left;
-  start.to_array(a + 2);
-  target.to_array(a + 2 + BodyState::size);
-}
-
-void ExternalMotion::from_array(const double *a)
-{
-  steps = static_cast<int>(a[0]);
-  left = static_cast<int>(a[1]);
-  start = BodyState::from_array(a + 2);
-  target = BodyState::from_array(a + 2 + BodyState::size);
-}
-
 }    // namespace Talus

@@ -19,10 +19,7 @@ class ExternalMotion {
 
   void advance(BodyState &state, double dt);
 
-  /// For restart files: steps, steps left, start and target.
-  static constexpr int size = 2 + 2 * BodyState::size;
-  void to_array(double *a) const;
-  void from_array(const double *a);
+  template <class Exchange> void exchange_state(Exchange &x) { x(steps, left, start, target); }
 
  private:
   int steps = 0, left = 0;

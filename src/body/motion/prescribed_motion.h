@@ -45,6 +45,8 @@ struct MotionClock {
   double read(std::int64_t now, double dt_now);
   /// The same for a step that was read before, or the first one, whatever the time step is now.
   double at(std::int64_t now) const { return time + static_cast<double>(now - step) * dt; }
+
+  template <class Exchange> void exchange_state(Exchange &x) { x(time, step, dt); }
 };
 
 }    // namespace Talus

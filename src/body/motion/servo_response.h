@@ -42,19 +42,9 @@ class ServoResponse {
     return last_rate + (wanted - last_rate) / (1.0 + product(slope));
   }
 
-  static constexpr int size = 5;    // of a restart file
-  void to_array(double *a) const
+  template <class Exchange> void exchange_state(Exchange &x)
   {
-    const double all[size] = {known ? 1.0 : 0.0, last_rate, last_force, products, squares};
-    std::copy_n(all, size, a);
-  }
-  void from_array(const double *a)
-  {
-    known = a[0] != 0.0;
-    last_rate = a[1];
-    last_force = a[2];
-    products = a[3];
-    squares = a[4];
+    x(known, last_rate, last_force, products, squares);
   }
 
  private:

@@ -74,8 +74,8 @@ class MeshShape : public LargeBodyShape {
   /// people, why not.
   std::string guide(const MovingVertices::Places &places, const MovingVertices::Places *velocities,
                     int steps, double dt, double way);
-  /// From restart files and snapshots; see MovingVertices.
-  void resume(const double *array);
+  /// The state of its vertices is that of a restart file or snapshot.
+  void vertices_are_restored();
   /// Of one step; see MovingVertices.
   void advance(bool order_2);
   /// Before parts are listed, so that is_near() finds fast what is near now. `with_planes`: from now on triangles

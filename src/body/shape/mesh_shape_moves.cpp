@@ -47,9 +47,9 @@ std::string MeshShape::guide(const MovingVertices::Places &places,
   return "";
 }
 
-void MeshShape::resume(const double *array)
+void MeshShape::vertices_are_restored()
 {
-  vertices->from_array(array);
+  vertices->state_is_restored();
   check->look_at(vertices->target());
   if (check->patches_change()) mesh.set_patches(check->patches());
   find_planes();

@@ -286,50 +286,17 @@ TriangleTurn::TriangleTurn(const Triangle &from, const Triangle &to)
 
 /* ---- restart ----------------------------------------------------------------------------------- */
 
-void MovingVertices::to_array(double *a) const
+bool MovingVertices::state_fits() const
 {
-  *a++ = steps;
-  *a++ = left;
-  *a++ = follows_way;
-  *a++ = has_jumped + 2 * rests;
-  const auto write = [&](const auto &value) {
-    for (int v = 0; v < num_own(); v++) {
-      const Vector3<double> x = value(v);
-      *a++ = x.x;
-      *a++ = x.y;
-      *a++ = x.z;
-    }
-  };
-  write([this](int v) { return states[v].place; });
-  write([this](int v) { return states[v].velocity; });
-  write([this](int v) { return states[v].before; });
+  const std::size_t count = num_all();
+  bool fits = states.size() == count;
   for (const Places *kept : {&start, &end, &velocity_at_start, &velocity_at_end, &velocity_before})
-    write([kept](int v) { return (*kept)[v]; });
+    fits = fits && kept->size() == count;
+  return fits;
 }
 
-void MovingVertices::from_array(const double *a)
+void MovingVertices::state_is_restored()
 {
-  steps = static_cast<int>(*a++);
-  left = static_cast<int>(*a++);
-  follows_way = *a++ != 0.0;
-  const int flags = static_cast<int>(*a++);
-  has_jumped = flags % 2 != 0;
-  rests = flags / 2;
-  const auto read = [&] {
-    Places own;
-    for (int v = 0; v < num_own(); v++, a += 3) own.push_back({a[0], a[1], a[2]});
-    return own;
-  };
-  const auto velocities = [&] {
-    return for_all(read(), [](int, const Vector3<double> &v) { return v; });
-  };
-  const Places places = with_images(read()), speeds = velocities(), past = with_images(read());
-  for (int v = 0; v < num_all(); v++) states[v] = {places[v], speeds[v], past[v]};
-  start = with_images(read());
-  end = with_images(read());
-  velocity_at_start = velocities();
-  velocity_at_end = velocities();
-  velocity_before = velocities();
   for (int v = 0; v < num_all(); v++) mesh.place(v, states[v].place);
   set_bounds();
   find_moving();

@@ -115,20 +115,22 @@ class MovingVertices {
   static void share_out(const SurfacePoint &at, const Vector3<double> &force,
                         const Vector3<double> &torque, Vector3<double> *on_corners);
 
-  /// For restart files and snapshots.
-  std::size_t size_of_array() const
+  /// For restart files and snapshots; of what the same mesh was.
+  template <class Exchange> void exchange_state(Exchange &x)
   {
-    return size_head + 3 * num_kept * static_cast<std::size_t>(num_own());
+    x(steps, left, follows_way, has_jumped, rests, states, start, end, velocity_at_start,
+      velocity_at_end, velocity_before);
   }
-  void to_array(double *a) const;
-  void from_array(const double *a);
+  /// They are those of this mesh; then what follows from them is found.
+  bool state_fits() const;
+  void state_is_restored();
 
   double memory_usage() const;
 
  private:
-  static constexpr std::size_t size_head = 4, num_kept = 8;    // numbers; lists of places
   struct State {
     Vector3<double> place, velocity, before;    // before: a step ago
+    template <class Exchange> void exchange_state(Exchange &x) { x(place, velocity, before); }
   };
   Places now() const;
   void put(int vertex, const Vector3<double> &x);

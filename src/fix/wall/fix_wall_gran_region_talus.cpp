@@ -1,0 +1,63 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "fix/wall/fix_wall_gran_region_talus.h"
+
+#include "domain.h"
+#include "error.h"
+#include "region.h"
+#include "system/host/time_formula.h"
+
+using namespace LAMMPS_NS;
+using namespace Talus;
+
+bigint FixWallGranRegionTalus::stock_size(const double *data) const
+{
+  const auto count = static_cast<std::int64_t>(ubuf(data[1]).i);
+  return count >= 0 && count <= tmax ? 2 + count * (size_history + 1) : -1;
+}
+
+std::string FixWallGranRegionTalus::what_only_stock_does() const
+{
+  return region->tmax > WallSurface::most_of_wall ? "its region has too many faces" : "";
+}
+
+std::string FixWallGranRegionTalus::what_reads_arrays()
+{
+  if (!region->dynamic_check()) return "";
+  const std::string variable = variable_that_may_read_particles(lmp, *region);
+  return variable.empty()
+             ? ""
+             : "its region may move with particles: v_" + variable + " reads more than time";
+}
+
+void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
+{
+  if (!wall.is_dynamic()) return;
+  wall.are_listed(BodyCandidates::bounds_of_search(
+      BodyFrame{}, particles, atom->mask, groupbit, neighbor->skin,
+      contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
+}
+
+void FixWallGranRegionTalus::write_restart(FILE *file)
+{
+  if (domain->get_region_by_id(idregion) != region)
+    error->all(
+        FLERR,
+        "Fix wall/gran/region {}: region '{}' has been deleted or defined anew since the last run: "
+        "let a run be set up before its state is saved",
+        id, idregion);
+  AcceleratedWall::write_restart(file);
+}
+
+int FixWallGranRegionTalus::read(int i, int k, HistoryValues &values) const
+{
+  wall_law.read(history_many[i][k], values);
+  return walls[i][k];
+}
+
+void FixWallGranRegionTalus::add(int i, int part, const HistoryValues &values)
+{
+  const int k = ncontact[i]++;
+  walls[i][k] = part;
+  wall_law.write(values, history_many[i][k]);
+}

@@ -1,0 +1,47 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// fix wall/gran/region/talus: the accelerated variant of fix wall/gran/region. Words, output and
+// restart data: fix wall/gran/region of LAMMPS. Errors: those of LAMMPS.
+
+#ifndef LMP_FIX_WALL_GRAN_REGION_TALUS_H
+#define LMP_FIX_WALL_GRAN_REGION_TALUS_H
+
+#include "fix/wall/fix_wall_gran_accelerated.h"
+#include "fix/wall/region_wall.h"
+
+#include "fix_wall_gran_region.h"
+
+namespace LAMMPS_NS {
+
+class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> {
+ public:
+  FixWallGranRegionTalus(LAMMPS *lmp, int narg, char **arg) :
+      AcceleratedWall(lmp, narg, arg, "wall/gran/region")
+  {
+  }
+  void write_restart(FILE *file) override;
+
+ protected:
+  bigint stock_size(const double *data) const override;
+  void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }
+  const Talus::WallSurface &surface() const override { return wall; }
+  void place() override { wall.place(); }
+  bool is_bounded() const override { return wall.is_bounded(); }
+  void are_listed(const Talus::ParticleState &particles) override;
+  double displacement() const override { return wall.displacement(); }
+  std::string what_only_stock_does() const override;
+  std::string what_reads_arrays() override;
+
+  // HistoryAtRest
+  int count(int i) const override { return ncontact[i]; }
+  int read(int i, int k, Talus::HistoryValues &values) const override;
+  void clear(int i) override { ncontact[i] = 0; }
+  void add(int i, int part, const Talus::HistoryValues &values) override;
+
+ private:
+  RegionWall wall;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,31 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Internal compute TALUS_CONTACT_LIST: contacts for a dump, which cannot ask for neighbor lists itself.
+// It calculates nothing.
+
+#ifndef LMP_COMPUTE_CONTACT_LIST_H
+#define LMP_COMPUTE_CONTACT_LIST_H
+
+#include "system/contacts/contact_list.h"
+
+#include "compute.h"
+
+namespace LAMMPS_NS {
+
+class ComputeContactList : public Compute {
+ public:
+  ComputeContactList(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg), contacts(lmp) {}
+
+  void init() override
+  {
+    contacts.set_list(nullptr);
+    if (contacts.problem().empty()) contacts.request(this);
+  }
+  void init_list(int, NeighList *list) override { contacts.set_list(list); }
+
+  Talus::ContactList contacts;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

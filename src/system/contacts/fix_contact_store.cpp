@@ -1,0 +1,380 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/contacts/fix_contact_store.h"
+
+#include "system/host/fix_list.h"
+#include "system/host/restart_data.h"
+#include "system/host/system_run_style.h"
+#include "system/shapes/shaped_particles.h"
+#include "system/step/granular_system.h"
+
+#include "base/in_parallel.h"
+#include "particles/canonical_key.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "integrate.h"
+#include "modify.h"
+#include "output.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using Talus::HistoryStore;
+
+/* ---------------------------------------------------------------------- */
+
+FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), store(comm->me), exchange(world)
+{
+  if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
+    error->all(FLERR, "Fix CONTACT_STORE is internal to the pair styles of Talus");
+  inverse_cell = 1.0 / utils::numeric(FLERR, arg[3], false, lmp);
+
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  maxexchange_dynamic = 1;
+  nevery = 1;    // of the end of step
+  set_maxexchange(0);
+  comm_border = size_border;
+  comm_forward = size_change;
+  force_reneighbor = 1;
+  next_reneighbor = next_refresh(update->ntimestep);
+
+  FixContactStore::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  atom->add_callback(Atom::BORDER);
+  for (int i = 0; i < atom->nlocal; i++) FixContactStore::set_arrays(i);
+}
+
+FixContactStore::~FixContactStore()
+{
+  give_sorting_back();    // after a run that ended in an error
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  atom->delete_callback(id, Atom::BORDER);
+}
+
+int FixContactStore::setmask()
+{
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
+         END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixContactStore::init()
+{
+  if (system) system->definitions().are_listed();
+  // the history must be put aside before any fix moves particles between ranks
+  for (const auto &ifix : Talus::fix_list(*modify)) {
+    if (ifix == this) break;
+    if (ifix->pre_exchange_migrate)
+      error->all(FLERR,
+                 "Pair style {} must be defined before fix {} {}, which migrates atoms: move the "
+                 "pair_style command up",
+                 Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
+  }
+  Talus::require_intact_particles(lmp);
+  next_reneighbor = next_refresh(update->ntimestep);
+  keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
+  guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
+  positions.resize(guards_positions ? 3 * keys.size() : 0);
+  // from a restart file, of which a rank without particles may know nothing
+  const int mine[2] = {store.largest_list(atom->nlocal), order};
+  int largest[2] = {0, 0};
+  MPI_Allreduce(mine, largest, 2, MPI_INT, MPI_MAX, world);
+  set_maxexchange(largest[0]);
+  order = largest[1];
+}
+
+bigint FixContactStore::next_refresh(bigint step) const
+{
+  return (step / refresh_interval + 1) * refresh_interval;
+}
+
+/* Runs before every migration of particles in a run; the rebuild at a refresh is forced, so that
+   the order of sums changes at the same steps whatever the skin is. */
+
+void FixContactStore::pre_exchange()
+{
+  store_histories(Occasion::REBUILD);
+  if (system) system->release_pairs();
+  keep_positions();
+  if (update->ntimestep != next_reneighbor) return;
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
+    for (int i = begin; i < end; i++) refresh_key(i);
+  });
+  sort_particles();
+  next_reneighbor = next_refresh(update->ntimestep);
+}
+
+void FixContactStore::min_pre_exchange()
+{
+  pre_exchange();
+}
+
+void FixContactStore::setup_pre_exchange()
+{
+  // a run style of LAMMPS cannot do so
+  const bool run_style_is_talus = Talus::SystemRunStyle::of(update->integrate) != nullptr;
+  if (system && update->whichflag == 1 && !run_style_is_talus)
+    system->steps_in_records().report(true);
+  if (system) system->release_pairs();
+  take_over_sorting();
+  sort_particles();
+  keep_positions();
+}
+
+void FixContactStore::setup_pre_neighbor()
+{
+  put_positions_back();
+}
+
+void FixContactStore::pre_neighbor()
+{
+  put_positions_back();
+}
+
+void FixContactStore::post_neighbor()
+{
+  current = false;
+  if (system) system->renumber_pairs();
+}
+
+void FixContactStore::min_post_neighbor()
+{
+  post_neighbor();
+}
+
+void FixContactStore::setup_post_neighbor()
+{
+  post_neighbor();
+}
+
+void FixContactStore::pairs_are_current()
+{
+  if (!current) store.clear();
+  current = true;
+}
+
+/* Histories of the other order are kept as a whole until they have been changed. */
+
+void FixContactStore::keep_histories(int records, int integration_order)
+{
+  const int needed = std::max(records, 1);
+  const bool old_ones = order != 0 && order != integration_order;
+  store.keep(old_ones ? std::max(needed, store.num_records()) : needed);
+}
+
+void FixContactStore::setup(int)
+{
+  require_numbers();
+}
+
+void FixContactStore::end_of_step()
+{
+  if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
+}
+
+/* A square that overflows counts as well: energies and moves are no numbers then. */
+
+RunMonitor::Finding FixContactStore::find_no_number() const
+{
+  double **const rows[] = {atom->x, atom->v, atom->omega};
+  for (int q = 0; q < 3; q++)
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double *v = rows[q][i];
+      if (!std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
+        return {1.0, {static_cast<double>(atom->tag[i]), static_cast<double>(q)}};
+    }
+  return {};
+}
+
+void FixContactStore::report_no_number(const RunMonitor::Finding &found) const
+{
+  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
+  error->all(FLERR,
+             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
+             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
+             "a fix)",
+             Talus::GranularSystem::of(lmp)->style_name(),
+             quantities[static_cast<int>(found.details[1])], found.details[0], update->ntimestep);
+}
+
+/* Of several ranks the particle with the lowest ID. */
+
+void FixContactStore::require_numbers() const
+{
+  struct {
+    double tag;
+    int quantity;
+  } mine{std::numeric_limits<double>::max(), 0}, first;
+  const RunMonitor::Finding here = find_no_number();
+  if (here.value > 0.0) mine = {here.details[0], static_cast<int>(here.details[1])};
+  MPI_Allreduce(&mine, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  if (first.tag < std::numeric_limits<double>::max())
+    report_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
+}
+
+/* From here on each particle carries its slot along, also if it is moved or deleted before
+   histories are stored. */
+
+void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
+{
+  store.number(order);    // what is stored has been taken
+  current = true;
+}
+
+/* Between runs particles may be added, deleted, renumbered or moved to other ranks: histories go
+   with them. */
+
+void FixContactStore::post_run()
+{
+  store_histories(Occasion::END_OF_RUN);
+  if (system) system->end_contacts_of_run();
+  give_sorting_back();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixContactStore::in_periodic_box() const
+{
+  return domain->xperiodic || domain->yperiodic || domain->zperiodic;
+}
+
+/* Pairs stay after a run, for those who ask for contacts, and for a run that goes on without a new
+   set-up: in a periodic box it goes on with the histories of both sides as they are, not with what the
+   sides agree on, so with the same bits as one run. */
+
+void FixContactStore::store_histories(Occasion occasion)
+{
+  if (!system || !current) return;
+  system->run_monitor().look(occasion == Occasion::END_OF_RUN ? RunMonitor::Moment::END
+                                                              : RunMonitor::Moment::REBUILD);
+  const bool rebuild = occasion == Occasion::REBUILD;
+  const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
+  system->keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
+  agree_with_other_ranks();
+  current = false;
+}
+
+/* On the histories of contacts across periodic borders, and on what pack_exchange() may have to
+   write, on this rank or on one that a particle passes through. */
+
+void FixContactStore::agree_with_other_ranks()
+{
+  int largest = store.largest_list(atom->nlocal);
+  if (comm->nprocs > 1 && store.holds_last_lists()) {
+    const int mine = largest;
+    if (in_periodic_box())
+      largest = exchange.run(store.outgoing(), mine,
+                             [this](const std::vector<double> &m) { store.receive(m); });
+    else
+      MPI_Allreduce(&mine, &largest, 1, MPI_INT, MPI_MAX, world);
+  }
+  set_maxexchange(largest);
+}
+
+/* What a restart file has brought stays. */
+
+void FixContactStore::keep_changes(bool yes)
+{
+  with_changes = yes;
+  if (yes) {
+    changes.resize(keys.size(), Talus::ChangeRecord{});
+  } else {
+    with_last = false;
+    changes = {};
+    last = {};
+  }
+}
+
+/* An integrator unknown to us: the last kick, or both that there were, is taken as twice what the
+   velocity is behind. */
+
+void FixContactStore::follow_velocities(int mine, const Talus::ShapedParticles *shapes)
+{
+  if (!with_last) return;
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [=](int, int begin, int end) {
+    for (int i = begin; i < end; i++) {
+      if ((atom->mask[i] & mine) || (shapes && shapes->moves(i))) continue;
+      for (int d = 0; d < 3; d++) {
+        changes[i].c[d] = static_cast<float>(0.5 * (atom->v[i][d] - last[i][d]));
+        changes[i].c[4 + d] =
+            static_cast<float>(atom->radius[i] * (0.5 * (atom->omega[i][d] - last[i][3 + d])));
+      }
+    }
+  });
+}
+
+void FixContactStore::store_velocities(int mine)
+{
+  constexpr int all = 1;
+  if (mine & all) return;
+  with_last = true;
+  last.resize(keys.size());
+  Talus::in_ranges(atom->nlocal, comm->nthreads, [this, mine](int, int begin, int end) {
+    for (int i = begin; i < end; i++)
+      if (!(atom->mask[i] & mine)) store_velocity(i);
+  });
+}
+
+void FixContactStore::store_velocity(int i)
+{
+  std::copy_n(atom->v[i], 3, last[i].data());
+  std::copy_n(atom->omega[i], 3, last[i].data() + 3);
+}
+
+/* Key, position, changes and velocities, and what the store packs. */
+
+void FixContactStore::set_maxexchange(int largest_list)
+{
+  maxexchange = 1 + 3 + size_change + size_last + HistoryStore::size_origin + largest_list;
+}
+
+void FixContactStore::refresh_key(int i)
+{
+  keys[i] = Talus::canonical_key(atom->x[i], inverse_cell);
+}
+
+void FixContactStore::keep_positions()
+{
+  if (!guards_positions) return;
+  domain->pbc();    // as fix balance will: what it then changes is rounding only
+  for (int i = 0; i < atom->nlocal; i++)
+    std::copy(atom->x[i], atom->x[i] + 3, positions.begin() + 3L * i);
+}
+
+/* Undoes rounding, never an intended move. */
+
+void FixContactStore::put_positions_back()
+{
+  if (!guards_positions) return;
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int d = 0; d < 3; d++) {
+      const double largest = std::fabs(domain->boxlo[d]) + domain->prd[d];
+      double &x = atom->x[i][d];
+      if (std::fabs(x - positions[3 * i + d]) <= rounding * largest) x = positions[3 * i + d];
+    }
+  comm->forward_comm();    // ghosts were made of the rounded positions
+}
+
+double FixContactStore::memory_usage()
+{
+  return static_cast<double>(keys.capacity() * sizeof(std::uint64_t) +
+                             positions.capacity() * sizeof(double) +
+                             changes.capacity() * sizeof(Talus::ChangeRecord) +
+                             last.capacity() * sizeof(Velocities)) +
+         store.memory_usage();
+}

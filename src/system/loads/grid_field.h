@@ -1,0 +1,59 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What particles have, as a field on a grid that another program gives: a box along the axes with cells
+// of one size. A particle whose center is in the grid is smeared over its cells with the kernel of
+// compute coarse/grid (coarse_kernel.h), or all of it is in the cell of its center with width 0. All
+// that it has is in cells of the grid: at a border the kernel is cut and what is left of it scaled up;
+// along a period that the grid fills it goes on at the other side. Sums have the same bits on any
+// number of ranks.
+
+#ifndef TALUS_SYSTEM_LOADS_GRID_FIELD_H
+#define TALUS_SYSTEM_LOADS_GRID_FIELD_H
+
+#include "base/vector3.h"
+#include "system/loads/coarse_kernel.h"
+
+#include "pointers.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Talus {
+
+class GridField : protected LAMMPS_NS::Pointers {
+ public:
+  /// Corners (length), numbers of cells, width of the kernel (length). The box is that of now.
+  GridField(LAMMPS_NS::LAMMPS *lmp, const double *lo, const double *hi, const int *cells,
+            double width);
+
+  /// "" or what is wrong with the grid, for messages; the same on all ranks. To be asked first.
+  std::string problem() const;
+
+  /// The center of an owned particle is in the grid (local index).
+  bool has(int i) const;
+  /// amounts(i, values) says what an owned particle has. Returns the sums of all ranks over the volume
+  /// of a cell: `values` numbers for each cell, along x fastest. Collective; memory of 24 bytes for
+  /// each number.
+  using Amounts = std::function<void(int, double *)>;
+  std::vector<double> smear(int values, const Amounts &amounts) const;
+
+ private:
+  std::array<double, 3> place_of(int i) const;
+  bool contains(const std::array<double, 3> &x) const;
+  std::vector<double> largest_amounts(int values, const Amounts &amounts) const;
+  /// visit(cell, weight) for those that a particle at x is in.
+  template <class Visit>
+  void for_each_share(CoarseKernel &kernel, const std::array<double, 3> &x, Visit visit) const;
+  std::size_t number_of(const int (&cell)[3]) const;
+  double volume_of_cell() const { return edge[0] * edge[1] * edge[2]; }
+
+  double lo[3], hi[3], edge[3], width;
+  int cells[3];
+  bool goes_round[3];    // it fills a period
+};
+
+}    // namespace Talus
+
+#endif

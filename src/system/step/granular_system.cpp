@@ -1,0 +1,193 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/step/granular_system.h"
+
+#include "system/contacts/fix_contact_store.h"
+#include "system/host/private_members.h"
+#include "system/host/system_run_style.h"
+#include "system/shapes/shaped_particles.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <map>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+
+namespace {
+
+// The same in every process: restart files find fixes by ID.
+constexpr const char *store_id = "TALUS_CONTACTS";
+// Keeps the place of the store in the list of fixes until the first run: only then read_restart has
+// brought what it is to continue with.
+constexpr const char *placeholder_id = "TALUS_CONTACTS_LATER";
+
+}    // namespace
+
+std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
+{
+  static std::map<const LAMMPS *, std::weak_ptr<GranularSystem>> systems;
+  std::shared_ptr<GranularSystem> system = systems[lmp].lock();
+  if (!system) {
+    system.reset(new GranularSystem(lmp));
+    systems[lmp] = system;
+  }
+  return system;
+}
+
+GranularSystem::GranularSystem(LAMMPS *lmp) :
+    Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
+    contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
+    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
+    proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers),
+    lists(lmp), largest_move(lmp), set_up_with(lmp, *this), loads_of_others(lmp, *this)
+{
+  contact_pipeline.emplace();
+}
+
+GranularSystem::~GranularSystem() = default;
+
+/* ---------------------------------------------------------------------- */
+
+bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
+{
+  if (pair) return false;
+  pair = one;
+  style = traits;
+  monitors.add(
+      pair,
+      {{0.5,
+        [this] { return contact_store ? contact_store->find_no_number() : RunMonitor::Finding{}; },
+        [this](const RunMonitor::Finding &found) {
+          contact_store->report_no_number(found);
+          return true;
+        }}});
+  monitors.add(pair, monitor.checks([this] { return run_contacts.deepest_since_rebuild(); }));
+  monitors.add(pair, {time_step.check(pair_coeffs)});
+  modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  make_run_style_the_default(lmp);
+  return true;
+}
+
+/* A second pair style has never been attached. */
+
+void GranularSystem::detach(const Pair *one)
+{
+  if (!pair || one != pair) return;
+  monitors.remove(pair);
+  pair = nullptr;
+  contact_store = nullptr;
+  pair_coeffs = PairCoeffs{};
+  prepared.reset();
+  announced.clear();
+  energies.clear();
+  run_contacts.forget();
+  contact_pipeline.emplace();
+  for (const auto *internal : {store_id, placeholder_id})
+    if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
+}
+
+bool GranularSystem::pair_style_is_alone() const
+{
+  return pair && (force->pair == pair || computes_all_of_hybrid(*pair, *force, atom->ntypes));
+}
+
+/* Style hybrid/scaled multiplies forces, and other ones are not known. */
+
+std::string GranularSystem::reason_of_pair_style() const
+{
+  if (!pair) return "the pair style is not accelerated";
+  if (force->pair == pair) return "";
+  const std::string style_of_all = force->pair_style;
+  if (style_of_all != "hybrid" && style_of_all != "hybrid/overlay")
+    return "the pair style is " + style_of_all;
+  return pair->compute_flag ? "" : "'pair_modify compute no' is set";
+}
+
+void GranularSystem::init_pair_style()
+{
+  run_contacts.keep();
+  neighbor_source.init(pair);
+  gravity.forget();
+  effective_masses.find_fixes();
+  contact_range.find(effective_masses.frozen_groups(), shaped.get());
+  contact_range.require_sizes(style.name);
+  create_store();
+  monitors.start();
+  time_step.start();
+  prepared.reset();    // init_one() will mix what is not set
+}
+
+void GranularSystem::create_store()
+{
+  const char *expected = contact_store ? store_id : placeholder_id;
+  if (!modify->get_fix_by_id(expected))
+    error->all(FLERR,
+               "Pair style {}: its internal fix {} has been deleted: remove the unfix command",
+               style.name, expected);
+  if (contact_store) return;
+  // well below the smallest particle of usual scenes: tags decide only where keys are equal
+  const double largest = contact_range.radii().largest();
+  const double cell = largest > 0.0 ? 0.125 * largest : 1.0;
+  const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
+  contact_store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
+  if (!contact_store)
+    error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
+  contact_store->serve(this);
+}
+
+/* ---------------------------------------------------------------------- */
+
+/* Once all pairs of types are known: at the first rebuild of a run, or the first question. */
+
+void GranularSystem::prepare_laws()
+{
+  if (prepared == pair_coeffs.revision()) return;
+  const LawTable table = pair_coeffs.table(movers.order());
+  contact_store->keep_histories(table.history_records(), movers.order());
+  contact_pipeline->set_laws(table);
+  prepared = pair_coeffs.revision();
+
+  const std::string description = "Talus " + style.name + ": " + pair_coeffs.describe(table);
+  if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
+  announced = description;
+  const std::string problem = contact_pipeline->keeps_history() ? contact_range.small_period() : "";
+  if (problem.empty()) return;
+  if (!style.allows_small_period) error->all(FLERR, "Pair style {}: {}", style.name, problem);
+  if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", style.name, problem);
+}
+
+const LawTable &GranularSystem::law_table()
+{
+  prepare_laws();
+  return contact_pipeline->law_table();
+}
+
+std::string GranularSystem::reason_against_history()
+{
+  effective_masses.find_fixes();
+  contact_range.find(effective_masses.frozen_groups(), shaped.get());
+  return contact_range.small_period();
+}
+
+ShapedParticles &GranularSystem::define_shapes(Fix *command, ShapeTable table)
+{
+  shaped = std::make_unique<ShapedParticles>(lmp, *this, command, std::move(table));
+  return *shaped;
+}
+
+void GranularSystem::drop_shapes()
+{
+  shaped.reset();
+}
+
+}    // namespace Talus
