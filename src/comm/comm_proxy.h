@@ -11,7 +11,7 @@
 #define LMP_COMM_PROXY_H
 
 #include "comm/comm_reach.h"
-#include "comm/direct_exchange.h"
+#include "system/exchange/direct_exchange.h"
 
 #include "comm_tiled.h"
 
@@ -21,10 +21,16 @@
 namespace LAMMPS_NS {
 
 /// Base: CommReach or CommTiled.
-template <class Base> class CommProxy : public Base, private StagedExchange {
+template <class Base> class CommProxy : public Base {
  public:
   /// Takes over the settings of `old`, which the caller deletes afterwards. Collective.
-  CommProxy(class LAMMPS *lmp, class Comm *old) : Base(lmp, old), direct(lmp, this, *this) {}
+  CommProxy(class LAMMPS *lmp, class Comm *old) :
+      Base(lmp, old),
+      direct(lmp, this,
+             {[this](MPI_Comm communicator) { return trace_origins(communicator); },
+              [this] { return possible_neighbors(); }, [this] { Base::forward_comm(); }})
+  {
+  }
 
   void init() override
   {
@@ -86,12 +92,13 @@ template <class Base> class CommProxy : public Base, private StagedExchange {
     direct.finish();
     Base::forward_comm_array(columns, array);
   }
-  /// `proxy_updates`: the Talus::ProxyUpdates of this object.
+  /// `proxies_pending`: an int, whether an update is under way.
   void *extract(const char *name, int &dimension) override
   {
-    if (std::strcmp(name, "proxy_updates") != 0) return Base::extract(name, dimension);
+    if (std::strcmp(name, "proxies_pending") != 0) return Base::extract(name, dimension);
     dimension = 0;
-    return static_cast<Talus::ProxyUpdates *>(&direct);
+    is_pending = direct.pending();
+    return &is_pending;
   }
   double memory_usage() override
   {
@@ -110,12 +117,11 @@ template <class Base> class CommProxy : public Base, private StagedExchange {
     Base::reverse_comm(style, size);
   }
 
-  // StagedExchange
-  std::vector<Talus::ProxyOrigin> trace_origins(MPI_Comm communicator) override;
-  std::vector<int> possible_neighbors() override;
-  void forward_staged() override { Base::forward_comm(); }
+  std::vector<Talus::ProxyOrigin> trace_origins(MPI_Comm communicator);
+  std::vector<int> possible_neighbors();
 
-  DirectExchange direct;
+  Talus::DirectExchange direct;
+  int is_pending = 0;    // see extract()
 };
 
 template <> std::vector<Talus::ProxyOrigin> CommProxy<CommReach>::trace_origins(MPI_Comm);

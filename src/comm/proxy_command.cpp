@@ -41,7 +41,7 @@ void ProxyCommand::command(int narg, char **arg)
 
 void ProxyCommand::check(bool value)
 {
-  if (ProxyUpdates *proxy = GranularSystem::of(lmp)->exchange().present())
+  if (DirectExchange *proxy = GranularSystem::of(lmp)->exchange().present())
     proxy->check(value);
   else if (value)
     error->all(FLERR, "comm_proxy check yes: the direct exchange is off: say 'comm_proxy yes' "
@@ -50,7 +50,7 @@ void ProxyCommand::check(bool value)
 
 void ProxyCommand::info()
 {
-  ProxyUpdates *proxy = GranularSystem::of(lmp)->exchange().direct();
+  DirectExchange *proxy = GranularSystem::of(lmp)->exchange().direct();
   if (!proxy) {
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;

@@ -101,7 +101,7 @@ void ComputePenaltyStats::compute_vector()
   mine[CANDIDATES] = system->contacts().count_candidates();
   mine[CONTACTS] = found.contacts;
   double largest = std::max(system->contacts().deepest().overlap_ratio, found.deepest_in_body);
-  if (Talus::ProxyUpdates *proxies = system->exchange().direct()) {
+  if (Talus::DirectExchange *proxies = system->exchange().direct()) {
     const Talus::ExchangeCounters &c = proxies->counters();
     mine[MESSAGES] = proxies->messages_per_exchange();
     mine[BYTES] = proxies->bytes_per_exchange();

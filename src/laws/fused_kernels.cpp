@@ -10,11 +10,11 @@
 #include "laws/damping/tsuji.h"
 #include "laws/damping/viscoelastic.h"
 #include "laws/law_list.h"
+#include "laws/none.h"
 #include "laws/normal/hertz.h"
 #include "laws/normal/hertz_material.h"
 #include "laws/normal/hooke.h"
 #include "laws/normal/jkr.h"
-#include "laws/rolling/none.h"
 #include "laws/rolling/sds.h"
 #include "laws/second_order_laws.h"
 #include "laws/tangential/granular.h"
@@ -23,7 +23,6 @@
 #include "laws/tangential/onestep.h"
 #include "laws/tangential/second_order.h"
 #include "laws/twisting/marshall.h"
-#include "laws/twisting/none.h"
 
 #include <algorithm>
 
@@ -141,8 +140,8 @@ struct Entry {
   StageFunction function, accounting;
 };
 
-template <class Normal, class Damping, class Tangential, class Rolling = RollingNone,
-          class Twisting = TwistingNone>
+template <class Normal, class Damping, class Tangential, class Rolling = NoRolling,
+          class Twisting = NoTwisting>
 constexpr Entry entry()
 {
   using Its = Fused<Normal, Damping, Tangential, Rolling, Twisting>;

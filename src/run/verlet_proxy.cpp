@@ -97,7 +97,7 @@ void VerletProxy::decide_on_overlap()
   if (comm->me == 0 && !hazard.empty() && has_proxies && hazard != announced)
     error->warning(FLERR, "Run style {}: overlap is off: {}", update->integrate_style, hazard);
   announced = hazard;
-  if (ProxyUpdates *proxies = system->exchange().direct()) proxies->set_overlap(overlaps);
+  if (DirectExchange *proxies = system->exchange().direct()) proxies->set_overlap(overlaps);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -117,7 +117,7 @@ void VerletProxy::run(int n)
   if (!set_up && (system->has_pair_style() || system->definitions().have_another_pair_style()))
     go_on_without_set_up();
   set_up = false;
-  if (ProxyUpdates *proxies = system->exchange().direct()) {
+  if (DirectExchange *proxies = system->exchange().direct()) {
     at_start = proxies->counters();
     proxies->set_overlap(overlaps);
   }
@@ -250,7 +250,7 @@ void VerletProxy::compute_forces(bool to_arrays)
     timer->stamp(Timer::PAIR);
   }
   // the pair style has done that; everything below may read proxies
-  if (ProxyUpdates *proxies = system->exchange().direct()) proxies->finish();
+  if (DirectExchange *proxies = system->exchange().direct()) proxies->finish();
 
   if (atom->molecular != Atom::ATOMIC) {
     if (force->bond) force->bond->compute(eflag, vflag);
@@ -293,7 +293,7 @@ void VerletProxy::cleanup()
                      "moved by something else than its velocity: increase the skin",
                      update->integrate_style, lists->num_unforeseen());
   }
-  ProxyUpdates *proxies = system->exchange().direct();
+  DirectExchange *proxies = system->exchange().direct();
   if (!proxies) return;
   proxies->set_overlap(false);
   const std::string text = summarize_exchange(proxies->counters().since(at_start), world);

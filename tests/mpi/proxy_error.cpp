@@ -8,8 +8,6 @@
 //
 // Prints "windows N" (steps whose window was seen on rank 0) and "survived" when all went well.
 
-#include "system/exchange/proxy_updates.h"
-
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -55,10 +53,10 @@ void look_for_window()
 {
   if (!observed) return;
   int dimension = 0;
-  const auto *updates =
-      static_cast<Talus::ProxyUpdates *>(observed->comm->extract("proxy_updates", dimension));
+  const auto *pending =
+      static_cast<const int *>(observed->comm->extract("proxies_pending", dimension));
   const bigint step = observed->update->ntimestep;
-  if (!updates || !updates->pending() || observed->update->setupflag || step == last_window) return;
+  if (!pending || !*pending || observed->update->setupflag || step == last_window) return;
   if (count_poisoned(observed->atom) != observed->atom->nghost) return;    // still being packed
   expect(observed->neighbor->ago > 0, "pending only in steps without a rebuild");
   windows++;

@@ -136,7 +136,8 @@ Eigen::Quaterniond across(RandomBodies &random, const Vector &outward)
   const Eigen::Quaterniond edge_down =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(0, 1, 1), down);
   const Eigen::Vector3d along = edge_down * Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d wander = random.uniform(0.05, 0.4) * to_eigen(random.direction());
+  const Eigen::Vector3d axis = to_eigen(random.direction());
+  const Eigen::Vector3d wander = random.uniform(0.05, 0.4) * axis;
   return Eigen::Quaterniond(Eigen::AngleAxisd(wander.norm(), wander.normalized())) *
          Eigen::Quaterniond::FromTwoVectors(along, over) * edge_down;
 }

@@ -68,7 +68,7 @@ std::string FixGravityTalus::find_reason()
   if (group->dynamic[igroup]) return "its group is dynamic";
   for (const std::string &reason : {reason_of_variables(), reason_of_fixes_before()})
     if (!reason.empty()) return reason;
-  return system->weights().take(this);
+  return system->weights().take(this, [this] { return acceleration(); });
 }
 
 std::string FixGravityTalus::reason_of_variables() const

@@ -4,7 +4,7 @@
    fix gravity with `-sf talus`: words and results of the style of LAMMPS, to rounding
 
    With a pair style of Talus the sums of the forces on a particle begin with its weight m g,
-   wherever a step is made; see GranularSystem::take_gravity(). post_force() is left with the
+   wherever a step is made; see Weights. post_force() is left with the
    potential energy -sum m g.x, in steps that LAMMPS looks at, and with the weights of particles
    of a fix freeze, which have none in the sums: a fix freeze behind this one counts them.
 
@@ -30,7 +30,7 @@ FixStyle(gravity/talus,FixGravityTalus);
 
 namespace LAMMPS_NS {
 
-class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
+class FixGravityTalus : public FixGravity, public Talus::SystemFix {
  public:
   FixGravityTalus(class LAMMPS *, int, char **);
   ~FixGravityTalus() override;
@@ -38,13 +38,11 @@ class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
   void init() override;
   void post_force(int) override;
 
-  // SystemGravity
+  // SystemFix
   std::string needs_arrays() override { return reason; }
   std::string reason_for_stock() const override { return reason; }
   void complete_step() override;
   void exchange_state(Talus::StateExchange &x) override;
-  const double *acceleration() override;
-  int group_bits() const override { return groupbit; }
 
  private:
   std::shared_ptr<Talus::GranularSystem> system;
@@ -58,6 +56,7 @@ class FixGravityTalus : public FixGravity, public Talus::SystemGravity {
   std::string reason_of_variables() const;
   std::string reason_of_fixes_before() const;
   bool some_frozen_move(int frozenbits) const;
+  const double *acceleration();
   void evaluate();
 };
 

@@ -2,11 +2,9 @@
 //
 // The laws of stage cohesion.
 
-#include "laws/cohesion/constant.h"
-#include "laws/cohesion/dmt.h"
-#include "laws/cohesion/none.h"
-#include "laws/cohesion/perko.h"
+#include "laws/cohesion/adhesion.h"
 #include "laws/law_definition.h"
+#include "laws/none.h"
 #include "laws/stage_lists.h"
 
 namespace Talus {
@@ -14,10 +12,10 @@ namespace Talus {
 std::vector<const Law *> cohesion_laws()
 {
   return {
-      &law<CohesionNone>,
-      &law<ConstantAdhesion>,
-      &law<DmtAdhesion>,
-      &law<PerkoAdhesion>,
+      &law<NoCohesion>,
+      &law<Adhesion<ConstantModel>>,
+      &law<Adhesion<DmtModel>>,
+      &law<Adhesion<PerkoModel>>,
   };
 }
 

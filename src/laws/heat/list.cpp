@@ -3,9 +3,9 @@
 // The laws of stage heat.
 
 #include "laws/heat/area.h"
-#include "laws/heat/none.h"
 #include "laws/heat/radius.h"
 #include "laws/law_definition.h"
+#include "laws/none.h"
 #include "laws/stage_lists.h"
 
 namespace Talus {
@@ -13,7 +13,7 @@ namespace Talus {
 std::vector<const Law *> heat_laws()
 {
   return {
-      &law<HeatNone>,
+      &law<NoHeat>,
       &law<HeatRadius>,
       &law<HeatArea>,
   };

@@ -12,7 +12,7 @@
 #ifndef TALUS_LAWS_ROLLING_CDT_H
 #define TALUS_LAWS_ROLLING_CDT_H
 
-#include "laws/law_list.h"
+#include "laws/law_definition.h"
 #include "laws/rolling/common.h"
 
 namespace Talus {
@@ -28,7 +28,7 @@ struct CdtRolling : RollingLaw {
   static void read(LawReader &r)
   {
     r.set_not_negative("mu_cdt");
-    if (r.words.take("capped")) r.spec.law.choose(stage, find_law(stage, "cdt capped"));
+    if (r.words.take("capped")) r.spec.law.choose(stage, capped());
   }
   static Row<double> mix(const Mixing &m) { return {m.friction("mu_cdt")}; }
 
@@ -38,6 +38,8 @@ struct CdtRolling : RollingLaw {
   {
     add_torque(s, torque(c, s));
   }
+
+  static const Law *capped();    // CappedCdt
 
  protected:
   /// Over the rotation across the normal.

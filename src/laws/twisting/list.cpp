@@ -3,10 +3,10 @@
 // The laws of stage twisting.
 
 #include "laws/law_definition.h"
+#include "laws/none.h"
 #include "laws/stage_lists.h"
 #include "laws/twisting/delayed.h"
 #include "laws/twisting/marshall.h"
-#include "laws/twisting/none.h"
 #include "laws/twisting/sds.h"
 #include "laws/twisting/stopping.h"
 #include "laws/twisting/stopping_order_2.h"
@@ -21,7 +21,7 @@ const Law *StoppingTwist::order_2(bool /*adhesive*/)
 std::vector<const Law *> twisting_laws()
 {
   return {
-      &law<TwistingNone>,  &law<StoppingTwist>, &law<DelayedTwist>,
+      &law<NoTwisting>,    &law<StoppingTwist>, &law<DelayedTwist>,
       &law<MarshallTwist>, &law<SdsTwist>,
   };
 }

@@ -105,7 +105,7 @@ void ExchangeSwitch::start_run()
     use_stock();
 }
 
-void ExchangeSwitch::is_made(const Comm *one, ProxyUpdates *proxies)
+void ExchangeSwitch::is_made(const Comm *one, DirectExchange *proxies)
 {
   if (one) num_made++;
   made = one;
@@ -123,9 +123,9 @@ int ExchangeSwitch::number_of_object() const
   return comm->style == Comm::BRICK ? -1 : -2;
 }
 
-ProxyUpdates *ExchangeSwitch::direct() const
+DirectExchange *ExchangeSwitch::direct() const
 {
-  ProxyUpdates *proxies = present();
+  DirectExchange *proxies = present();
   return proxies && !proxies->falls_back() ? proxies : nullptr;
 }
 

@@ -19,7 +19,7 @@ class Comm;
 
 namespace Talus {
 
-class ProxyUpdates;
+class DirectExchange;
 
 class ExchangeSwitch : protected LAMMPS_NS::Pointers {
  public:
@@ -42,14 +42,14 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
 
   /// From the constructor and the destructor of communication objects of Talus, with the direct exchange or
   /// nullptr: in every step it is asked several times whether one is there.
-  void is_made(const LAMMPS_NS::Comm *comm, ProxyUpdates *proxies);
+  void is_made(const LAMMPS_NS::Comm *comm, DirectExchange *proxies);
   void is_deleted(const LAMMPS_NS::Comm *comm);
   /// Of the present communication object: the how manyth of those of Talus; -1, -2: one of LAMMPS, brick or tiled.
   int number_of_object() const;
   /// The direct exchange if it is in force, else nullptr.
-  ProxyUpdates *direct() const;
+  DirectExchange *direct() const;
   /// The same, also where it falls back.
-  ProxyUpdates *present() const { return comm == made ? proxies_of_made : nullptr; }
+  DirectExchange *present() const { return comm == made ? proxies_of_made : nullptr; }
   /// With direct() == nullptr: why, and the cure, as text for messages.
   std::string reason_for_stock() const;
   /// "" or what of the present settings the direct exchange does not support, and the cure.
@@ -67,7 +67,7 @@ class ExchangeSwitch : protected LAMMPS_NS::Pointers {
   Choice chosen = Choice::AUTOMATIC;
   int num_made = 0;
   const LAMMPS_NS::Comm *made = nullptr;
-  ProxyUpdates *proxies_of_made = nullptr;
+  DirectExchange *proxies_of_made = nullptr;
 };
 
 }    // namespace Talus

@@ -2,8 +2,8 @@
 
 #include "system/exchange/proxy_states.h"
 
+#include "system/exchange/direct_exchange.h"
 #include "system/exchange/exchange_switch.h"
-#include "system/exchange/proxy_updates.h"
 #include "system/host/present_box.h"
 
 #include "base/nearly_sorted.h"
@@ -22,7 +22,7 @@ const std::vector<int> &ProxyStates::sent()
 {
   if (sent_is_known) return sent_particles;
   sent_particles.clear();
-  if (const ProxyUpdates *proxies = exchange.direct()) {
+  if (const DirectExchange *proxies = exchange.direct()) {
     sent_particles = proxies->plan().self().send_index;
     for (const ExchangeNeighbor &n : proxies->plan().neighbors())
       sent_particles.insert(sent_particles.end(), n.send_index.begin(), n.send_index.end());
@@ -38,7 +38,7 @@ const std::vector<int> &ProxyStates::sent()
 void ProxyStates::update(bool overlap, ContactPipeline &particles, const ParticleView &arrays,
                          bool stay)
 {
-  ProxyUpdates *proxies = exchange.direct();
+  DirectExchange *proxies = exchange.direct();
   const bool from_records = particles.holds_state();
   in_records = from_records && stay && proxies && !proxies->is_checking();
   if (from_records && !in_records) particles.copy_states_to_arrays(sent(), arrays);
@@ -66,7 +66,7 @@ ProxyPacker *ProxyStates::packer_of_records(ContactPipeline &particles)
 
 void ProxyStates::finish()
 {
-  ProxyUpdates *proxies = exchange.direct();
+  DirectExchange *proxies = exchange.direct();
   if (!proxies || !proxies->pending()) return;
   timer->stamp(Timer::PAIR);
   proxies->finish();

@@ -19,7 +19,7 @@ namespace Talus {
 
 class ExchangeSwitch;
 class ProxyPacker;
-class ProxyUpdates;
+class DirectExchange;
 
 class ProxyStates : protected LAMMPS_NS::Pointers {
  public:

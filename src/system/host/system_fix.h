@@ -97,19 +97,6 @@ class SystemFix {
   ~SystemFix() = default;    // never deleted through this interface
 };
 
-/// A field of gravity: the sums of forces begin with the weights of particles in it.
-class SystemGravity : public SystemFix {
- public:
-  /// Acceleration in the present step, nullptr if there is none. Asked on all ranks, before the
-  /// sums of a step begin.
-  virtual const double *acceleration() = 0;
-  /// Bits of the group that has weight.
-  virtual int group_bits() const = 0;
-
- protected:
-  ~SystemGravity() = default;
-};
-
 }    // namespace Talus
 
 #endif

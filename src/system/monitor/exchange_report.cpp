@@ -35,7 +35,7 @@ Spread Talus::spread_over_ranks(double value, MPI_Comm world)
   return s;
 }
 
-std::string Talus::describe_exchange(ProxyUpdates &proxies, double share_without_proxies,
+std::string Talus::describe_exchange(DirectExchange &proxies, double share_without_proxies,
                                      MPI_Comm world)
 {
   const ExchangePlan &plan = proxies.plan();

@@ -5,7 +5,7 @@
 #ifndef TALUS_SYSTEM_MONITOR_EXCHANGE_REPORT_H
 #define TALUS_SYSTEM_MONITOR_EXCHANGE_REPORT_H
 
-#include "system/exchange/proxy_updates.h"
+#include "system/exchange/direct_exchange.h"
 
 #include <mpi.h>
 
@@ -21,7 +21,8 @@ struct Spread {
 Spread spread_over_ranks(double value, MPI_Comm world);
 
 /// Several lines: plan, message, counters. Collective; the text is complete on all ranks.
-std::string describe_exchange(ProxyUpdates &proxies, double share_without_proxies, MPI_Comm world);
+std::string describe_exchange(DirectExchange &proxies, double share_without_proxies,
+                              MPI_Comm world);
 
 /// One line for the end of a run of verlet/proxy, which has added `c`. Collective.
 std::string summarize_exchange(const ExchangeCounters &c, MPI_Comm world);

@@ -87,7 +87,7 @@ ShapedView ShapedParticles::view() const
 
 void ShapedParticles::send_orientations()
 {
-  const ProxyUpdates *direct = system.exchange().direct();
+  const DirectExchange *direct = system.exchange().direct();
   if (direct && direct->has_plan() && !orientations_were_set) return;
   comm->forward_comm(fix, size_orientation);
   orientations_were_set = false;

@@ -54,7 +54,7 @@ void GranularSystem::renumber_pairs()
   prepare_laws();
   timer->stamp(Timer::MODIFY);
   contact_pipeline->release();
-  const ProxyUpdates *direct = exchange_switch.direct();
+  const DirectExchange *direct = exchange_switch.direct();
   contact_pipeline->set_work(comm->nthreads, direct && direct->overlaps());
   try {
     if (given_pairs)

@@ -156,7 +156,7 @@ void GranularSystem::compute_around_proxies(ContactStep &step)
     contact_pipeline->compute(view(), step);
     return;
   }
-  ProxyUpdates *direct = exchange_switch.direct();
+  DirectExchange *direct = exchange_switch.direct();
   const std::function<void()> progress = [direct] { direct->progress(); };
   if (direct && direct->pending() && direct->may_progress_beside(comm->nthreads))
     step.progress = &progress;

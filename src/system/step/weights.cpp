@@ -5,15 +5,18 @@
 #include "system/step/granular_system.h"
 
 #include "atom.h"
+#include "fix.h"
 #include "force.h"
 #include "neighbor.h"
 #include "pair.h"
+
+#include <utility>
 
 using namespace LAMMPS_NS;
 
 namespace Talus {
 
-std::string Weights::take(SystemGravity *gravity_fix)
+std::string Weights::take(const Fix *gravity, std::function<const double *()> field)
 {
   const std::string of_pair_style = system.reason_of_pair_style();
   if (!of_pair_style.empty()) return of_pair_style;
@@ -22,24 +25,25 @@ std::string Weights::take(SystemGravity *gravity_fix)
     return "the unit of force is not that of mass times acceleration";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
-  if (field && field != gravity_fix) return "another fix gravity comes before it";
-  field = gravity_fix;
+  if (fix && fix != gravity) return "another fix gravity comes before it";
+  fix = gravity;
+  acceleration = std::move(field);
   return "";
 }
 
-void Weights::drop(const SystemGravity *gravity_fix)
+void Weights::drop(const Fix *gravity)
 {
-  if (field == gravity_fix) field = nullptr;
+  if (fix == gravity) fix = nullptr;
 }
 
 void Weights::begin_step(ContactPipeline &particles)
 {
-  particles.set_gravity(field ? field->acceleration() : nullptr);
+  particles.set_gravity(fix ? acceleration() : nullptr);
 }
 
 void Weights::find_weightless(ContactPipeline &particles) const
 {
-  const int *mask = atom->mask, bits = field ? field->group_bits() : 1;
+  const int *mask = atom->mask, bits = fix ? fix->groupbit : 1;
   if (bits & 1)    // the group all
     particles.set_weightless(nullptr);
   else

@@ -7,11 +7,15 @@
 #define TALUS_SYSTEM_STEP_WEIGHTS_H
 
 #include "contact/contact_pipeline.h"
-#include "system/host/system_fix.h"
 
 #include "pointers.h"
 
+#include <functional>
 #include <string>
+
+namespace LAMMPS_NS {
+class Fix;
+}
 
 namespace Talus {
 
@@ -22,15 +26,16 @@ class Weights : protected LAMMPS_NS::Pointers {
   Weights(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
   /// In init() of a fix, after that of the pair style: from now on the sums of forces begin with
-  /// the weights. Returns "", or why the fix has to add them itself.
-  std::string take(SystemGravity *gravity_fix);
+  /// the weights of the particles of its group. Returns "", or why the fix has to add them itself. `field`: the acceleration
+  /// in the present step, nullptr if there is none; asked on all ranks.
+  std::string take(const LAMMPS_NS::Fix *gravity, std::function<const double *()> field);
   /// The fix is going.
-  void drop(const SystemGravity *gravity_fix);
+  void drop(const LAMMPS_NS::Fix *gravity);
 
   // ---- by the system
 
   /// The pair style is initialized: init() of the fix comes later.
-  void forget() { field = nullptr; }
+  void forget() { fix = nullptr; }
   /// Before the sums of a step begin. Collective.
   void begin_step(ContactPipeline &particles);
   /// After a rebuild: which particles have none.
@@ -38,7 +43,8 @@ class Weights : protected LAMMPS_NS::Pointers {
 
  private:
   GranularSystem &system;
-  SystemGravity *field = nullptr;
+  const LAMMPS_NS::Fix *fix = nullptr;
+  std::function<const double *()> acceleration;    // if there is a fix
 };
 
 }    // namespace Talus

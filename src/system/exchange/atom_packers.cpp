@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "comm/atom_packers.h"
+#include "system/exchange/atom_packers.h"
 
 #include "system/host/present_box.h"
 

@@ -1,9 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "comm/direct_exchange.h"
+#include "system/exchange/direct_exchange.h"
 
 #include "exchange/exchange_tags.h"
 #include "system/shapes/shaped_particles.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "atom_vec.h"
@@ -14,13 +15,15 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 using namespace LAMMPS_NS;
-using namespace Talus;
 
-DirectExchange::DirectExchange(LAMMPS *lmp, const Comm *of, StagedExchange &stages) :
-    Pointers(lmp), system(GranularSystem::of(lmp)), staged(stages), owner(of), transfer(world),
-    atom_vec_packer(lmp), sphere_packer(lmp)
+namespace Talus {
+
+DirectExchange::DirectExchange(LAMMPS *lmp, const Comm *of, StagedExchange stages) :
+    Pointers(lmp), system(GranularSystem::of(lmp)), staged(std::move(stages)), owner(of),
+    transfer(world), atom_vec_packer(lmp), sphere_packer(lmp)
 {
   system->exchange().is_made(owner, this);
 }
@@ -142,3 +145,5 @@ std::string DirectExchange::describe_message() const
   return fmt::format("{} bytes per particle, packed by LAMMPS (atom style {}){}", bytes,
                      atom->atom_style, more);
 }
+
+}    // namespace Talus

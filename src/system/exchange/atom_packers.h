@@ -3,8 +3,8 @@
 // The state of particles in the arrays of LAMMPS as the exchange carries it: through LAMMPS'
 // packing for every atom style, or, faster, our own for atom style sphere.
 
-#ifndef TALUS_COMM_ATOM_PACKERS_H
-#define TALUS_COMM_ATOM_PACKERS_H
+#ifndef TALUS_SYSTEM_EXCHANGE_ATOM_PACKERS_H
+#define TALUS_SYSTEM_EXCHANGE_ATOM_PACKERS_H
 
 #include "exchange/proxy_packer.h"
 

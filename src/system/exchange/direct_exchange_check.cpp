@@ -2,7 +2,7 @@
 //
 // The invariant checks of DirectExchange, switched on by `comm_proxy check yes`.
 
-#include "comm/direct_exchange.h"
+#include "system/exchange/direct_exchange.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -13,7 +13,8 @@
 #include <limits>
 
 using namespace LAMMPS_NS;
-using namespace Talus;
+
+namespace Talus {
 
 namespace {
 
@@ -117,7 +118,7 @@ void DirectExchange::check_states()
   const std::vector<double> x = snapshot(atom->x);
   const std::vector<double> v = comm->ghost_velocity ? snapshot(atom->v) : std::vector<double>();
   const std::vector<double> omega = rotation ? snapshot(atom->omega) : std::vector<double>();
-  staged.forward_staged();
+  staged.forward();
   bool wrong = differs_then_restore(atom->x, x);
   if (comm->ghost_velocity) wrong |= differs_then_restore(atom->v, v);
   if (rotation) wrong |= differs_then_restore(atom->omega, omega);
@@ -125,3 +126,5 @@ void DirectExchange::check_states()
     error->one(FLERR, "comm_proxy check: the state of a proxy is not that of its owner "
                       "(internal error)");
 }
+
+}    // namespace Talus
