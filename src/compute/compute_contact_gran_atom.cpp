@@ -32,7 +32,7 @@ ComputeContactGranAtom::~ComputeContactGranAtom()
 
 void ComputeContactGranAtom::init()
 {
-  if (!system->has_pair_style())
+  if (!system->pair_style().is_there())
     error->all(FLERR, "Compute contact/gran/atom requires a pair style of Talus");
 }
 

@@ -133,7 +133,7 @@ ComputeContactGranLocal::~ComputeContactGranLocal()
 
 void ComputeContactGranLocal::init()
 {
-  if (!system->has_pair_style())
+  if (!system->pair_style().is_there())
     error->all(FLERR, "Compute contact/gran/local requires a pair style of Talus");
 }
 

@@ -41,7 +41,7 @@ ComputeDissipationGranAtom::~ComputeDissipationGranAtom()
 
 void ComputeDissipationGranAtom::init()
 {
-  if (!system->has_pair_style())
+  if (!system->pair_style().is_there())
     error->all(FLERR, "Compute dissipation/gran/atom requires a pair style of Talus");
   if (modify->get_fix_by_id(store_id) != store)
     error->all(FLERR,

@@ -51,7 +51,7 @@ ComputePenaltyStats::~ComputePenaltyStats()
 
 void ComputePenaltyStats::init()
 {
-  if (!system->has_pair_style())
+  if (!system->pair_style().is_there())
     error->all(FLERR,
                "Compute penalty/stats requires one pair style gran/penalty, or one that is "
                "accelerated by the suffix talus: see 'Talus: styles of this run' in the log");

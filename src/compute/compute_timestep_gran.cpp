@@ -24,7 +24,7 @@ ComputeTimestepGran::~ComputeTimestepGran()
 
 void ComputeTimestepGran::init()
 {
-  if (!system->has_pair_style())
+  if (!system->pair_style().is_there())
     error->all(
         FLERR,
         "Compute timestep/gran requires one pair style gran/penalty, or one that is accelerated by "

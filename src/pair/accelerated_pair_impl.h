@@ -92,7 +92,7 @@ template <class Stock> void AcceleratedPair<Stock>::decide()
 template <class Stock> std::string AcceleratedPair<Stock>::find_reason_for_stock() const
 {
   if (!attached)
-    return "one pair style is accelerated, and " + this->system->style_name() + " is it";
+    return "one pair style is accelerated, and " + this->system->pair_style().name() + " is it";
   if (this->lmp->kokkos) return "the KOKKOS package is in use";
   if (!this->atom->tag_enable) return "particles have no IDs (atom_modify id no)";
   if (this->force->ftm2v != 1.0)

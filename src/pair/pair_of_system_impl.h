@@ -39,7 +39,7 @@ template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int v
   this->ev_init(eflag, vflag);
   const std::function<void(const Talus::TalliedContact &)> to_lammps =
       [this](const Talus::TalliedContact &c) { tally(c); };
-  system->compute_contacts(this->vflag_either ? &to_lammps : nullptr);
+  system->step().compute_contacts(this->vflag_either ? &to_lammps : nullptr);
 }
 
 /* To LAMMPS, as if newton were off, an index of a ghost means that nothing is tallied for it. */
@@ -82,7 +82,7 @@ std::optional<SinglePair> PairOfSystem<Base>::look_at_pair(int i, int j, int ity
   s.inverse_distance = 1.0 / r;
   s.arm_loss = s.overlap / (ri + rj);
   s.arm_difference = 0.5 * s.arm_loss * (rj - ri);
-  const Talus::ParticleState particles = system->particles();
+  const Talus::ParticleState particles = system->step().particles();
   if (const Talus::ChangeRecord *change = particles.change(i)) {
     s.lag = system->integrators().lag();
     Talus::set_changes(s, *change, *particles.change(j), ri, rj);

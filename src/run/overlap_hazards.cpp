@@ -32,7 +32,7 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
 {
   const auto system = GranularSystem::of(lmp);
   if (!lmp->force->pair) return "there is no pair style";
-  if (!system->pair_style_is_alone())
+  if (!system->pair_style().is_alone())
     return std::string("pair style ") + lmp->force->pair_style +
            " does not wait for proxies: only one of Talus on its own does";
   if (!pairs_computed) return "'pair_modify compute no' is set";

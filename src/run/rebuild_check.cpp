@@ -84,9 +84,10 @@ void RebuildCheck::ask(GranularSystem *in_records)
 
 MotionForecast RebuildCheck::forecast(GranularSystem &in_records) const
 {
-  MotionForecast here{in_records.moved_at_most(), update->dt * in_records.pipeline().fastest()};
+  MotionForecast here{in_records.step().moved_at_most(),
+                      update->dt * in_records.pipeline().fastest()};
   if (neighbor->every > 1 || here.may_leave(limit(), 1))
-    here.moved = in_records.moved_since_rebuild();
+    here.moved = in_records.step().moved_since_rebuild();
   return here;
 }
 

@@ -46,7 +46,7 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 
 std::string VerletProxy::reason_for_stock() const
 {
-  const std::string of_pair_style = system->reason_of_pair_style();
+  const std::string of_pair_style = system->pair_style().reason_against();
   if (!of_pair_style.empty()) return of_pair_style;
   return pair_compute_flag ? "" : "'pair_modify compute no' is set";
 }
@@ -54,7 +54,7 @@ std::string VerletProxy::reason_for_stock() const
 void VerletProxy::init()
 {
   Verlet::init();
-  if (system->reason_of_pair_style().empty()) system->exchange().start_run();
+  if (system->pair_style().reason_against().empty()) system->exchange().start_run();
 }
 
 void VerletProxy::setup(int flag)
@@ -114,7 +114,8 @@ void VerletProxy::go_on_without_set_up()
 
 void VerletProxy::run(int n)
 {
-  if (!set_up && (system->has_pair_style() || system->definitions().have_another_pair_style()))
+  if (!set_up &&
+      (system->pair_style().is_there() || system->definitions().have_another_pair_style()))
     go_on_without_set_up();
   set_up = false;
   if (DirectExchange *proxies = system->exchange().direct()) {
@@ -124,12 +125,12 @@ void VerletProxy::run(int n)
   if (!makes_own_steps() || !lists) return Verlet::run(n);
   lists->start_count();
   lists->ask(nullptr);
-  system->start_run(pair_compute_flag);
+  system->step().start_run(pair_compute_flag);
   reverses = force->newton && others_act_on_ghosts();
   // an error on the way, or the end of the time allowed, must not leave the arrays of LAMMPS behind
   struct End {
     GranularSystem &system;
-    ~End() { system.return_to_arrays(); }
+    ~End() { system.step().return_to_arrays(); }
   } at_the_end{*system};
   for (int i = 0; i < n; i++) {
     if (timer->check_timeout(i)) {
@@ -148,7 +149,7 @@ void VerletProxy::run(int n)
 bool VerletProxy::others_act_on_ghosts() const
 {
   return force->bond || force->angle || force->dihedral || force->improper || force->kspace ||
-         modify->n_pre_force || modify->n_pre_reverse || !system->pair_style_is_alone();
+         modify->n_pre_force || modify->n_pre_reverse || !system->pair_style().is_alone();
 }
 
 /* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. With few particles
@@ -166,23 +167,23 @@ void VerletProxy::step()
   timer->stamp(Timer::MODIFY);
 
   // LAMMPS' decide() waits for all ranks
-  const bool is_due = lists->decide([this] { return system->moved_since_rebuild(); });
+  const bool is_due = lists->decide([this] { return system->step().moved_since_rebuild(); });
   const bool must_rebuild = is_due || needs_lists;
   needs_lists = false;
   if (must_rebuild) rebuild();
   // LAMMPS' forces are not read in a step after which particles stay in the records
-  const bool to_arrays = system->begin_forces(now, eflag || vflag);
+  const bool to_arrays = system->step().begin_forces(now, eflag || vflag);
   if (!must_rebuild)
-    system->update_proxies(overlaps);    // LAMMPS' forward_comm() is complete at its end
+    system->step().update_proxies(overlaps);    // LAMMPS' forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
   const bool in_records = system->pipeline().holds_state();
   if (!in_records) lists->ask(nullptr);
   if (comm->nprocs > 1 || atom->nghost > 0) timer->stamp(Timer::COMM);
 
-  const bool others_in_arrays = system->begin_pair_styles();
+  const bool others_in_arrays = system->step().begin_pair_styles();
   if (to_arrays || others_in_arrays) force_clear();
   compute_forces(to_arrays || others_in_arrays);
-  if (others_in_arrays) system->end_pair_styles();
+  if (others_in_arrays) system->step().end_pair_styles();
   if (in_records) lists->ask(system.get());
 
   fixes.post_force(vflag);
@@ -200,12 +201,12 @@ void VerletProxy::step()
 
 void VerletProxy::bring_back()
 {
-  if (system->return_to_arrays()) comm->forward_comm();
+  if (system->step().return_to_arrays()) comm->forward_comm();
 }
 
 void VerletProxy::rebuild()
 {
-  system->begin_rebuild();
+  system->step().begin_rebuild();
   timer->stamp(Timer::COMM);
   if (modify->n_pre_exchange) {
     modify->pre_exchange();

@@ -168,7 +168,7 @@ void FixRigidSmallSymplectic::initial_integrate(int vflag)
       place_spheres(clump, s, sphere_motion, b, SphereUpdate::POSITIONS_AND_VELOCITIES, kick);
     });
   }
-  system->advance(this, record_step(time));
+  system->step().advance(this, record_step(time));
 }
 
 Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const ClumpState &state) const
@@ -183,7 +183,7 @@ Talus::SphereMotion<double> FixRigidSmallSymplectic::sphere_motion_of(const Clum
 
 void FixRigidSmallSymplectic::final_integrate()
 {
-  system->complete_step_of(*this);
+  system->step().complete_step_of(*this);
 }
 
 void FixRigidSmallSymplectic::complete_step()

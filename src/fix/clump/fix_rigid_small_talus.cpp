@@ -76,7 +76,8 @@ void FixRigidSmallTalus::init()
 
 std::string FixRigidSmallTalus::find_reason()
 {
-  return system->has_pair_style() ? reason_of_settings() : system->reason_of_pair_style();
+  return system->pair_style().is_there() ? reason_of_settings()
+                                         : system->pair_style().reason_against();
 }
 
 std::string FixRigidSmallTalus::reason_of_settings() const
@@ -309,7 +310,7 @@ void FixRigidSmallTalus::initial_integrate(int vflag)
   else
     begin_step();
   kick_is_due = false;
-  system->advance(this, record_step(dtf));
+  system->step().advance(this, record_step(dtf));
 }
 
 Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
@@ -354,7 +355,7 @@ void FixRigidSmallTalus::final_integrate()
 {
   if (!reason.empty()) return FixRigidSmall::final_integrate();
   kick_is_due = true;
-  system->complete_step_of(*this);
+  system->step().complete_step_of(*this);
 }
 
 void FixRigidSmallTalus::complete_step()

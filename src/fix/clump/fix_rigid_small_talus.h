@@ -143,10 +143,10 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   }
   // of the changes of velocities that this fix keeps, see RecordStep; before spheres are placed
   double extrapolation;
-  // for GranularSystem::advance(), which moves none of the spheres
+  // for Step::advance(), which moves none of the spheres
   Talus::RecordStep record_step(double kick) const;
   // before the first of these in a step: where its particles are
-  void find_particles() { particles = system->particles(); }
+  void find_particles() { particles = system->step().particles(); }
   double force_unit() const;
 
  private:

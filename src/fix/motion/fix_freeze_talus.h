@@ -31,7 +31,7 @@ class FixFreezeTalus : public FixFreeze, public Talus::SystemFix {
   {
   }
   void post_constructor() override { restore_style(this, "freeze"); }
-  void post_force(int) override { system->complete_step_of(*this); }
+  void post_force(int) override { system->step().complete_step_of(*this); }
 
   // SystemFix
   std::string needs_arrays() override { return ""; }

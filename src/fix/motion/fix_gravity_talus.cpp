@@ -145,7 +145,7 @@ void FixGravityTalus::evaluate()
 void FixGravityTalus::post_force(int vflag)
 {
   if (!reason.empty()) return FixGravity::post_force(vflag);
-  system->complete_step_of(*this);
+  system->step().complete_step_of(*this);
 }
 
 /* The sums have begun with the weights: frozen particles have none in them. */

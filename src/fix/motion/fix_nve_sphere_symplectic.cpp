@@ -183,7 +183,7 @@ bigint FixNVESphereSymplectic::count_members(const std::function<bool(int)> &con
 void FixNVESphereSymplectic::initial_integrate(int /*vflag*/)
 {
   const double dt = update->dt;
-  system->advance(this, step_of(start.next_kick(dt), dt), frozenbits);
+  system->step().advance(this, step_of(start.next_kick(dt), dt), frozenbits);
   if (rotates) rotate(dt);
 }
 

@@ -31,7 +31,7 @@ std::string FixNVESphereTalus::find_reason() const
 {
   if (extra) return "it turns dipoles";
   if (utils::strmatch(update->integrate_style, "^respa")) return "run_style respa has levels";
-  if (!system->has_pair_style()) return system->reason_of_pair_style();
+  if (!system->pair_style().is_there()) return system->pair_style().reason_against();
   return "";
 }
 
@@ -54,7 +54,7 @@ Talus::RecordStep FixNVESphereTalus::half_step() const
 void FixNVESphereTalus::initial_integrate(int vflag)
 {
   if (!reason.empty()) return FixNVESphere::initial_integrate(vflag);
-  system->advance(this, half_step());
+  system->step().advance(this, half_step());
 }
 
 /* Put off while particles stay in the records. */
@@ -62,7 +62,7 @@ void FixNVESphereTalus::initial_integrate(int vflag)
 void FixNVESphereTalus::final_integrate()
 {
   if (!reason.empty()) return FixNVESphere::final_integrate();
-  system->complete_step_of(*this);
+  system->step().complete_step_of(*this);
 }
 
 void FixNVESphereTalus::complete_step()

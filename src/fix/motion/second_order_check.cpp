@@ -24,7 +24,7 @@ namespace {
 
 std::string reason_of_contacts(GranularSystem &system)
 {
-  if (!system.pair_style_is_alone())
+  if (!system.pair_style().is_alone())
     return "contacts of particles are not those of a pair style of Talus: use pair_style "
            "gran/penalty, or a granular style with the suffix talus, and not hybrid";
   const Talus::PairCoeffs &laws = system.laws();

@@ -108,5 +108,5 @@ void FixShapeGran::initial_integrate(int /*vflag*/)
   shapes->move();
   RecordStep step{update->dt, update->dt * force->ftm2v, {0.0, 0.0, 0.0}, 0.4};
   step.extrapolation = 0.5;
-  system->advance(this, step);
+  system->step().advance(this, step);
 }

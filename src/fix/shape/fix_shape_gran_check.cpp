@@ -33,12 +33,12 @@ void FixShapeGran::check_scene()
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are of first order: use 'order 1' in all fixes "
                "nve/sphere/symplectic and rigid/small/symplectic");
-  if (!system->pair_style_is_alone())
+  if (!system->pair_style().is_alone())
     error->all(FLERR, Error::NOLASTLINE,
                "Fix shape/gran: contacts of shapes are computed by Talus alone, but {}: use "
                "'pair_style gran/penalty', or a granular pair style with the suffix talus, alone",
-               system->has_pair_style() ? "the pair style is hybrid"
-                                        : system->reason_of_pair_style());
+               system->pair_style().is_there() ? "the pair style is hybrid"
+                                               : system->pair_style().reason_against());
   const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty())
     error->all(FLERR, Error::NOLASTLINE,

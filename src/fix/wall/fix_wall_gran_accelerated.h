@@ -87,7 +87,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
     place();
     list_if_needed();
     add_contacts();
-    if (!this->peratom_flag || !system->may_be_asked()) return;
+    if (!this->peratom_flag || !system->step().may_be_asked()) return;
     this->clear_stored_contacts();
     for_outputs.for_each([this](const ContactReport &one) { keep_contact(one); });
   }
@@ -200,14 +200,14 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   void list_if_needed()
   {
     const bool bounded = is_bounded();
-    if (!is_stale(bounded ? system->moved_at_most() : 0.0)) return;
-    const double moved = bounded ? system->moved_since_rebuild() : 0.0;
+    if (!is_stale(bounded ? system->step().moved_at_most() : 0.0)) return;
+    const double moved = bounded ? system->step().moved_since_rebuild() : 0.0;
     if (is_stale(moved)) list(moved);
   }
   void list(double moved)
   {
     constexpr double anywhere = 1.0e100;
-    const ParticleState particles = system->particles();
+    const ParticleState particles = system->step().particles();
     contacts.find_candidates(surface(), particles, this->atom->mask, this->groupbit,
                              is_bounded() ? this->neighbor->skin : anywhere, this->comm->nthreads);
     find_masses();
@@ -250,8 +250,8 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
         contacts.num_candidates() / worth_a_thread, 1, this->comm->nthreads));
     step.account = accounts ? &account : nullptr;
     step.wall = &wall;
-    if (system->may_be_asked()) step.for_outputs = &for_outputs;
-    contacts.compute(surface(), at_rest, system->particles(), step);
+    if (system->step().may_be_asked()) step.for_outputs = &for_outputs;
+    contacts.compute(surface(), at_rest, system->step().particles(), step);
     if (accounts) system->account().add(account.sum);
   }
   /// Row of a particle in the output by particle: force, contact point, radius, heat flow.
@@ -275,7 +275,7 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   std::string find_reason_for_stock() const
   {
-    if (!system->has_pair_style()) return system->reason_of_pair_style();
+    if (!system->pair_style().is_there()) return system->pair_style().reason_against();
     if (!LAMMPS_NS::utils::strmatch(this->update->integrate_style, "^verlet"))
       return "run_style is not verlet";
     if (this->fix_rigid && this->force->ftm2v != 1.0)

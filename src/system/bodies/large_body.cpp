@@ -169,7 +169,7 @@ std::string LargeBody::guide_vertices(const MovingVertices::Places &places,
 
 ParticleState LargeBody::view() const
 {
-  ParticleState particles = system.particles();
+  ParticleState particles = system.step().particles();
   particles.replace_masses(masses.override_or_null());
   return particles;
 }
@@ -197,7 +197,7 @@ BodyStep LargeBody::begin_forces(bool advance)
   step.exact = sums_exactly() ? &exact : nullptr;
   if (body_surface->records()) step.touched = body_surface->touched();
   if (moved_vertices) step.corners = moved_vertices->touched();
-  if (system.may_be_asked()) step.for_outputs = &for_outputs;
+  if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
   return step;
 }
 

@@ -33,7 +33,7 @@ std::string ContactList::problem() const
 
 void ContactList::request(Compute *owner)
 {
-  if (system->pair_style_is_alone()) return;
+  if (system->pair_style().is_alone()) return;
   int flags = NeighConst::REQ_OCCASIONAL;
   const NeighRequest *of_pair = neighbor->find_request(force->pair);
   if (of_pair && of_pair->get_size()) flags |= NeighConst::REQ_SIZE;
@@ -42,12 +42,12 @@ void ContactList::request(Compute *owner)
 
 bool ContactList::is_known() const
 {
-  return system->pair_style_is_alone() ? system->contacts().are_known() : list != nullptr;
+  return system->pair_style().is_alone() ? system->contacts().are_known() : list != nullptr;
 }
 
 void ContactList::for_each(const VisitContact &visit) const
 {
-  const bool is_talus_pair = system->pair_style_is_alone();
+  const bool is_talus_pair = system->pair_style().is_alone();
   if (!is_talus_pair) for_each_pair_of_lammps(visit);
   system->contacts().for_each(ContactData::ALL, [&](const ContactReport &one) {
     if (one.body >= 0 || (is_talus_pair && system->contacts().is_of_this_rank(one))) visit(one);

@@ -82,11 +82,11 @@ void FixContactStore::init()
       error->all(FLERR,
                  "Pair style {} must be defined before fix {} {}, which migrates atoms: move the "
                  "pair_style command up",
-                 Talus::GranularSystem::of(lmp)->style_name(), ifix->id, ifix->style);
+                 Talus::GranularSystem::of(lmp)->pair_style().name(), ifix->id, ifix->style);
   }
   Talus::require_intact_particles(lmp);
   next_reneighbor = next_refresh(update->ntimestep);
-  keep_changes(Talus::GranularSystem::of(lmp)->needs_changes());
+  keep_changes(Talus::GranularSystem::of(lmp)->step().needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
   // from a restart file, of which a rank without particles may know nothing
@@ -108,7 +108,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   store_histories(Occasion::REBUILD);
-  if (system) system->release_pairs();
+  if (system) system->rebuild().release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
@@ -129,7 +129,7 @@ void FixContactStore::setup_pre_exchange()
   const bool run_style_is_talus = Talus::SystemRunStyle::of(update->integrate) != nullptr;
   if (system && update->whichflag == 1 && !run_style_is_talus)
     system->steps_in_records().report(true);
-  if (system) system->release_pairs();
+  if (system) system->rebuild().release_pairs();
   take_over_sorting();
   sort_particles();
   keep_positions();
@@ -148,7 +148,7 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (system) system->renumber_pairs();
+  if (system) system->rebuild().renumber_pairs();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -207,7 +207,7 @@ void FixContactStore::report_no_number(const RunMonitor::Finding &found) const
              "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
              "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
              "a fix)",
-             Talus::GranularSystem::of(lmp)->style_name(),
+             Talus::GranularSystem::of(lmp)->pair_style().name(),
              quantities[static_cast<int>(found.details[1])], found.details[0], update->ntimestep);
 }
 
@@ -241,7 +241,7 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 void FixContactStore::post_run()
 {
   store_histories(Occasion::END_OF_RUN);
-  if (system) system->end_contacts_of_run();
+  if (system) system->rebuild().end_contacts_of_run();
   give_sorting_back();
 }
 
@@ -263,7 +263,7 @@ void FixContactStore::store_histories(Occasion occasion)
                                                               : RunMonitor::Moment::REBUILD);
   const bool rebuild = occasion == Occasion::REBUILD;
   const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
-  system->keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
+  system->rebuild().keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
   agree_with_other_ranks();
   current = false;
 }

@@ -195,7 +195,7 @@ constexpr int restart_header = Talus::size_particle_head + 3;
 
 std::string command_name(LAMMPS *lmp)
 {
-  return std::string("Pair style ") + Talus::GranularSystem::of(lmp)->style_name();
+  return std::string("Pair style ") + Talus::GranularSystem::of(lmp)->pair_style().name();
 }
 
 }    // namespace

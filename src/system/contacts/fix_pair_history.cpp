@@ -63,7 +63,8 @@ void FixPairHistory::unpack_restart(int i, int nth)
 {
   if (system->store()->restart_reset) return;
   const double *from = Talus::stock_particle_data(
-      lmp, std::string("Pair style ") + system->style_name(), i, nth, [this](const double *data) {
+      lmp, std::string("Pair style ") + system->pair_style().name(), i, nth,
+      [this](const double *data) {
         const bool is_count = data[1] >= 0.0 && data[1] <= atom->nextra_store;
         return is_count ? header + stock_entry() * static_cast<bigint>(data[1]) : -1;
       });

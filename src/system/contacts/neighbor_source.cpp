@@ -33,7 +33,7 @@ class NoBins : public NBin {
 
 std::string NeighborSource::reason_for_lammps_lists() const
 {
-  if (!GranularSystem::of(lmp)->pair_style_is_alone()) return "pair style hybrid";
+  if (!GranularSystem::of(lmp)->pair_style().is_alone()) return "pair style hybrid";
   if (atom->nbonds > 0 || force->bond) return "bonds may scale forces";
   if (neighbor->includegroup || atom->firstgroupname) return "they are those of a group";
   return "";
@@ -52,7 +52,7 @@ void NeighborSource::init(Pair *pair)
   groups_excluded = neighbor->nex_group;
   molecules_excluded = neighbor->nex_mol;
   const std::string line =
-      "Talus " + GranularSystem::of(lmp)->style_name() +
+      "Talus " + GranularSystem::of(lmp)->pair_style().name() +
       (searches ? ": finds neighbors itself, as often as neigh_modify says\n"
                 : fmt::format(": neighbor lists are those of LAMMPS: {}\n", reason));
   if (comm->me == 0 && line != said) utils::logmesg(lmp, line);
@@ -82,7 +82,7 @@ NeighborView NeighborSource::find(const NeighList *list, double pulloff_distance
                     : std::function<bool(int, int)>());
   } catch (const std::domain_error &problem) {
     error->one(FLERR, "Pair style {}: {}: the simulation is unstable: reduce the time step",
-               GranularSystem::of(lmp)->style_name(), problem.what());
+               GranularSystem::of(lmp)->pair_style().name(), problem.what());
   }
   return search.view();
 }

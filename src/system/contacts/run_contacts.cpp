@@ -33,14 +33,12 @@ constexpr const char *kept_are_old = "Pair style {}: contacts of the last run ca
 
 void RunContacts::for_each(ContactData requested, const VisitContact &visit) const
 {
-  if (system.has_pair_style() && update->whichflag == 0) {
-    if (kept) {
-      if (atom->natoms != kept_of) error->all(FLERR, kept_are_old, system.style_name());
-      for (const KeptContact &one : *kept) visit(at_present(one));
-      return;
-    }
-    require_those_of_last_run();
+  const bool after_a_run = system.pair_style().is_there() && update->whichflag == 0;
+  if (after_a_run && kept) {
+    for (const ContactReport &one : kept_at_present()) visit(one);
+    return;
   }
+  if (after_a_run) require_those_of_last_run();
   visit_all(requested, visit);
 }
 
@@ -79,7 +77,7 @@ bool RunContacts::are_known() const
   return update->whichflag != 0 ? system.pipeline().has_pairs() : kept || digest_after_run;
 }
 
-/* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. */
+/* Between runs particles may be sorted, sent to other ranks or deleted, which may change all IDs. -1: gone. */
 
 int RunContacts::present_index(const KeptContact &one, int end) const
 {
@@ -87,19 +85,34 @@ int RunContacts::present_index(const KeptContact &one, int end) const
   const auto tag = static_cast<tagint>(one.tag[end]);
   if (last < atom->nlocal + atom->nghost && atom->tag[last] == tag) return last;
   const bool is_in_map = atom->map_style != Atom::MAP_NONE && tag <= atom->map_tag_max;
-  const int found = is_in_map ? atom->map(tag) : -1;
-  if (found < 0) error->one(FLERR, kept_are_old, system.style_name());
-  return found;
+  return is_in_map ? atom->map(tag) : -1;
 }
 
-ContactReport RunContacts::at_present(const KeptContact &one) const
+std::vector<ContactReport> RunContacts::kept_at_present() const
 {
-  ContactReport now = one.contact;
-  now.i = present_index(one, 0);
-  if (now.j < 0) return now;
-  now.j = present_index(one, 1);
-  if (now.j != one.contact.j) now.j = domain->closest_image(now.i, now.j);
-  return now;
+  std::vector<ContactReport> all;
+  bool are_there = atom->natoms == kept_of;
+  for (const KeptContact &one : *kept) {
+    ContactReport now = one.contact;
+    now.i = present_index(one, 0);
+    const bool with_particle = now.j >= 0;
+    if (with_particle) now.j = present_index(one, 1);
+    are_there = are_there && now.i >= 0 && (!with_particle || now.j >= 0);
+    if (!are_there) break;
+    if (with_particle && now.j != one.contact.j) now.j = domain->closest_image(now.i, now.j);
+    all.push_back(now);
+  }
+  require(are_there);
+  return all;
+}
+
+/* What one rank says alone may be lost when the others are aborted. */
+
+void RunContacts::require(bool those_of_last_run) const
+{
+  int here = those_of_last_run, everywhere = 0;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_INT, MPI_MIN, world);
+  if (!everywhere) error->all(FLERR, kept_are_old, system.pair_style().name());
 }
 
 /* By the local indices of particles, and the order of bodies. */
@@ -135,8 +148,8 @@ void RunContacts::require_those_of_last_run() const
     error->all(FLERR,
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",
-               system.style_name());
-  if (*digest_after_run != digest_of_owners()) error->one(FLERR, kept_are_old, system.style_name());
+               system.pair_style().name());
+  require(*digest_after_run == digest_of_owners());
 }
 
 /* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the

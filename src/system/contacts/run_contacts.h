@@ -28,7 +28,7 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   RunContacts(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
   /// visit(contact) for those on this rank, those with a ghost as well. After a run only as long as
-  /// someone observes them.
+  /// someone observes them, and collective then.
   using VisitContact = ContactPipeline::VisitContact;
   void for_each(ContactData requested, const VisitContact &visit) const;
   /// Of those that two ranks know, or one twice, only one is.
@@ -70,7 +70,8 @@ class RunContacts : protected LAMMPS_NS::Pointers {
   void require_those_of_last_run() const;
   void visit_all(ContactData requested, const VisitContact &visit) const;
   int present_index(const KeptContact &one, int end) const;
-  ContactReport at_present(const KeptContact &one) const;
+  std::vector<ContactReport> kept_at_present() const;
+  void require(bool those_of_last_run) const;
 
   GranularSystem &system;
   /// After a run whose contacts are observed: digest of whose they are; and contacts that have been

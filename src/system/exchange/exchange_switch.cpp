@@ -157,7 +157,7 @@ std::string ExchangeSwitch::unsupported(bool in_run) const
 std::string ExchangeSwitch::needs_beyond_contacts() const
 {
   const auto system = GranularSystem::of(lmp);
-  if (!system->has_pair_style()) return "pair styles of LAMMPS";
+  if (!system->pair_style().is_there()) return "pair styles of LAMMPS";
   if (!system->neighbors().reason_for_lammps_lists().empty() || neighbor->nlist > 1)
     return "neighbor lists of LAMMPS";
   if (comm->cutghostuser > 0.0 || has_cutoffs_by_kind(*comm) || sends_one_group(*comm))

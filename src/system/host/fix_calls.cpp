@@ -83,7 +83,7 @@ std::string FixCalls::reason_against(const Fix *fix)
   const int calls = modify->get_fix_mask(const_cast<Fix *>(fix)) & within_steps;
   if (!window || (calls & ~window->calls) != 0) return "may look at particles in every step";
   const bool moves = (window->writes & X) != 0;
-  if (moves && system.needs_changes())
+  if (moves && system.step().needs_changes())
     return "particles that it moves have no accelerations for order 2 or energies";
   if (moves && group->dynamic[fix->igroup]) return "its group is dynamic";
   if ((window->writes & TORQUE) != 0 && (window->writes & V) == 0 &&
@@ -155,7 +155,7 @@ void FixCalls::find_members(Called &called) const
 
 void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 {
-  const ParticleState particles = system.particles();
+  const ParticleState particles = system.step().particles();
   const bool rotates = particles.keeps_omega();
   const auto exchange = [to_arrays](double *in_records, double *in_arrays) {
     copy_row(to_arrays ? in_records : in_arrays, to_arrays ? in_arrays : in_records);
@@ -207,7 +207,7 @@ template <class Call> void FixCalls::call_all(Phase &phase, Call call)
       call(called.fix);
       continue;
     }
-    if (window->calls == POST_INTEGRATE) system.complete_move();
+    if (window->calls == POST_INTEGRATE) system.step().complete_move();
     find_members(called);
     copy(called, window->reads | window->writes, true);
     call(called.fix);
@@ -274,12 +274,12 @@ void FixCalls::update_groups(int vflag)
 {
   if (std::all_of(groups.begin(), groups.end(),
                   [this](Fix *fix) { return reads_positions_alone(fix); })) {
-    const ParticleState particles = system.particles();
+    const ParticleState particles = system.step().particles();
     in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
       for (int i = begin; i < end; i++) copy_row(particles.x(i), atom->x[i]);
     });
   } else {
-    system.show_particles();
+    system.step().show_particles();
   }
   for (Fix *const fix : groups) fix->post_force(vflag);
 }
@@ -296,7 +296,7 @@ bool FixCalls::somebody_looks() const
 void FixCalls::end_of_step()
 {
   if (!modify->n_end_of_step) return;
-  if (system.pipeline().holds_state() && somebody_looks()) system.show_step();
+  if (system.pipeline().holds_state() && somebody_looks()) system.step().show_step();
   modify->end_of_step();
 }
 

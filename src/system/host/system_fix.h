@@ -49,14 +49,14 @@ class SystemFix {
   /// Particles touch it, a large body or a wall: it has a number, in the order of the script.
   virtual bool is_touched() const { return false; }
   /// Of such a fix: visit(contact) for those of the last step on this rank, as they were when its forces
-  /// were computed; without the number. Where GranularSystem::may_be_asked() in that step, else none.
+  /// were computed; without the number. Where Step::may_be_asked() in that step, else none.
   using VisitContact = std::function<void(const ContactReport &)>;
   virtual void for_each_contact(const VisitContact & /*visit*/) const {}
 
   /// Integrates the motion of particles.
   virtual bool integrates() const { return false; }
   /// An integrator that moves the particles of its group in the records itself, before it calls
-  /// GranularSystem::advance(), which then moves none of them.
+  /// Step::advance(), which then moves none of them.
   virtual bool places_particles() const { return false; }
   /// Of an integrator: whether it moves this particle of its group (local index).
   virtual bool moves_particle(int /*i*/) const { return true; }
@@ -79,7 +79,7 @@ class SystemFix {
   virtual Kicks kicks() const { return {1.0, 0.0}; }
 
   /// Its part of a step that others can see only in the arrays of LAMMPS, with the forces of
-  /// contacts, bodies and weights. Called by GranularSystem::complete_step_of() in a step that LAMMPS
+  /// contacts, bodies and weights. Called by Step::complete_step_of() in a step that LAMMPS
   /// looks at; and when particles come back from a step in the records, those that integrate last.
   virtual void complete_step() {}
 

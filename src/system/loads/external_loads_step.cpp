@@ -93,7 +93,7 @@ void ExternalLoads::act(Moment moment)
   if (moment != Moment::STEP) take_back();
   constexpr int ahead = 12;
   find_kicks(moment);
-  const ParticleState particles = system.particles();
+  const ParticleState particles = system.step().particles();
   const int last = atom->nlocal - 1;
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
@@ -129,7 +129,7 @@ void ExternalLoads::sums_begin_anew()
 void ExternalLoads::take_back()
 {
   find_kicks(Moment::BETWEEN_STEPS);
-  const ParticleState particles = system.particles();
+  const ParticleState particles = system.step().particles();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!has(i, ADDED)) continue;
     const Kick *const kick = kick_of(i);

@@ -71,7 +71,7 @@ void ContactMonitor::warn_overlap(const RunMonitor::Finding &worst) const
   error->warning(FLERR,
                  "Pair style {}: particles {:.0f} and {:.0f} overlap by {:.3g} of the smaller "
                  "radius at step {}{}; {}",
-                 GranularSystem::of(lmp)->style_name(), worst.details[0], worst.details[1],
+                 GranularSystem::of(lmp)->pair_style().name(), worst.details[0], worst.details[1],
                  worst.value, update->ntimestep, begins ? "" : " or since the last rebuild", cure);
 }
 
@@ -121,7 +121,7 @@ void ContactMonitor::warn_move(const RunMonitor::Finding &worst) const
   error->warning(FLERR,
                  "Pair style {}: particle {:.0f} moves by {:.3g} of its radius{} in a time step at "
                  "step {}; an impact is not resolved: reduce the time step",
-                 GranularSystem::of(lmp)->style_name(), worst.details[0], worst.value,
+                 GranularSystem::of(lmp)->pair_style().name(), worst.details[0], worst.value,
                  worst.details[1] != 0.0
                      ? " (its corners by so much of that of the largest sphere inside)"
                      : "",

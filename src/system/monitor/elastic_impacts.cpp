@@ -53,5 +53,5 @@ void ElasticImpacts::warn(double fraction) const
                  "Pair style {}: no contact has damping or friction: at this time step, "
                  "{:.3g} of the critical one, impacts of {} gain or lose some energy by chance, "
                  "which adds up over many: use at most {} of it, or add damping",
-                 GranularSystem::of(lmp)->style_name(), fraction, strictest, advised);
+                 GranularSystem::of(lmp)->pair_style().name(), fraction, strictest, advised);
 }

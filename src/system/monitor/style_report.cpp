@@ -67,7 +67,7 @@ void StyleReport::print(const GranularSystem &system, const std::string &reason_
 
 bool StyleReport::concerns(const GranularSystem &system) const
 {
-  if (system.has_pair_style()) return true;
+  if (system.pair_style().is_there()) return true;
   if (force->pair && utils::strmatch(force->pair_style, "^gran")) return true;
   if (force->pair && force->pair_match("^gran", 0)) return true;    // in hybrid
   const std::vector<Fix *> fixes = fix_list(*modify);
@@ -95,10 +95,10 @@ std::string StyleReport::pair_is(const GranularSystem &system) const
   if (!force->pair) return how("there is no pair style");
   if (const auto *talus_pair = SystemPair::of(force->pair))
     return how(talus_pair->reason_for_stock());
-  if (system.pair_style_is_alone()) return how("");    // the only part of hybrid
-  if (system.has_pair_style())
-    return system.pair_style_is_alone() ? "accelerated"
-                                        : "sub-styles of Talus accelerated; others stock";
+  if (system.pair_style().is_alone()) return how("");    // the only part of hybrid
+  if (system.pair_style().is_there())
+    return system.pair_style().is_alone() ? "accelerated"
+                                          : "sub-styles of Talus accelerated; others stock";
   if (utils::strmatch(force->pair_style, "^hybrid")) return how("no sub-style is accelerated");
   return how(why_stock(*force->pair_map, force->pair_style));
 }

@@ -102,7 +102,7 @@ void TimeStepMonitor::warn_unstable() const
       FLERR,
       "Pair style {}: the time step is {:.3g} of the largest with which particles among twelve "
       "others, shapes by their faces, are stable with the damping of their contacts ({:.4g}): {}",
-      system.style_name(), update->dt / critical.stable, critical.stable, cure);
+      system.pair_style().name(), update->dt / critical.stable, critical.stable, cure);
 }
 
 void TimeStepMonitor::warn_too_large(double limit) const
@@ -116,5 +116,5 @@ void TimeStepMonitor::warn_too_large(double limit) const
       FLERR,
       "Pair style {}: the time step is {:.3g} of the critical one ({:.4g}; {}): at most {} of "
       "it is advised",
-      GranularSystem::of(lmp)->style_name(), update->dt / limit, limit, rules, advised);
+      GranularSystem::of(lmp)->pair_style().name(), update->dt / limit, limit, rules, advised);
 }

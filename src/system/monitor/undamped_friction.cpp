@@ -68,8 +68,8 @@ void UndampedFriction::warn(double fraction) const
                    "Pair style {}: contacts of {} have a coefficient of friction of "
                    "{:.4g} and next to no damping: at this time step, {:.3g} of the critical one, "
                    "impacts gain energy: add {}damping, or use at most {:.2g} of it",
-                   GranularSystem::of(lmp)->style_name(), worst_step.who, worst_step.mu, fraction,
-                   worst_step.granular ? "" : "the word midpoint, or ",
+                   GranularSystem::of(lmp)->pair_style().name(), worst_step.who, worst_step.mu,
+                   fraction, worst_step.granular ? "" : "the word midpoint, or ",
                    rounded_down(harmless_fraction(worst_step.mu), 2));
   if (worst_spring.mu > 0.0) {
     std::string less;
@@ -83,7 +83,7 @@ void UndampedFriction::warn(double fraction) const
         "Pair style {}: contacts of {} have a coefficient of friction of "
         "{:.4g}{} and next to no damping: impacts gain energy at any time step, since "
         "their tangential spring stiffens while it is stretched: add damping, {}or use {}",
-        GranularSystem::of(lmp)->style_name(), worst_spring.who, worst_spring.mu,
+        GranularSystem::of(lmp)->pair_style().name(), worst_spring.who, worst_spring.mu,
         worst_spring.mu_roll > 0.0
             ? fmt::format(", rolling resistance of {:.4g}", worst_spring.mu_roll)
             : "",

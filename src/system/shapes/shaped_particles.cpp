@@ -113,7 +113,7 @@ void ShapedParticles::move(const ParticleState &particles, int i)
 
 void ShapedParticles::move()
 {
-  const ParticleState particles = system.particles();
+  const ParticleState particles = system.step().particles();
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
     for (int i = begin; i < end; i++)
       if (moves(i)) move(particles, i);

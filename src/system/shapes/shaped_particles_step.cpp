@@ -80,7 +80,7 @@ void ShapedParticles::require_set_up() const
 ShapedView ShapedParticles::view() const
 {
   if (atom->nlocal + atom->nghost == 0) return {};
-  return {system.particles(), atom->nlocal + atom->nghost, quat[0]};
+  return {system.step().particles(), atom->nlocal + atom->nghost, quat[0]};
 }
 
 /* The direct exchange brings them with positions, a rebuild with its ghosts. */

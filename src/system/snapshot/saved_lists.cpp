@@ -32,7 +32,7 @@ SavedLists::SavedLists(LAMMPS *lmp, GranularSystem &owner) :
 void SavedLists::save()
 {
   number = made.number();
-  if (!system.shapes()) pairs = system.pair_lists();
+  if (!system.shapes()) pairs = system.rebuild().pair_lists();
   step = neighbor->lastcall;
   decomposition = present_decomposition();
   comm_style = comm->style;
@@ -121,9 +121,9 @@ bool SavedLists::make_again() const
   comm->borders();
   if (tilted) domain->lamda2x(atom->nlocal + atom->nghost);
   if (!on_all_ranks(digest_of_particles() == particles)) return false;
-  system.take_pairs_from(pairs);
+  system.rebuild().take_pairs_from(pairs);
   run_hooks_and_build();
-  system.take_pairs_from(nullptr);
+  system.rebuild().take_pairs_from(nullptr);
   made.are_again(number);
   if (!positions.empty()) std::copy(positions.begin(), positions.end(), neighbor->get_xhold()[0]);
   box.give_to(*domain);

@@ -2,8 +2,8 @@
 
 #include "system/step/granular_system.h"
 
+#include "base/state_exchange.h"
 #include "system/contacts/fix_contact_store.h"
-#include "system/host/private_members.h"
 #include "system/host/system_run_style.h"
 #include "system/shapes/shaped_particles.h"
 
@@ -11,7 +11,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "force.h"
 #include "modify.h"
 #include "pair.h"
 #include "update.h"
@@ -45,11 +44,14 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), large_bodies(lmp, *this), neighbor_source(lmp), effective_masses(lmp),
+    Pointers(lmp), attached(lmp), neighbor_source(lmp), effective_masses(lmp),
     contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
-    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp),
-    proxies(lmp, exchange_switch), gravity(lmp, *this), record_steps(lmp, *this, movers),
-    lists(lmp), largest_move(lmp), set_up_with(lmp, *this), loads_of_others(lmp, *this)
+    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp), gravity(lmp, *this),
+    record_steps(lmp, *this, movers), lists(lmp), set_up_with(lmp, *this),
+    loads_of_others(lmp, *this),
+    step_of_run(lmp, *this, {contact_pipeline, movers, run_contacts, time_step}),
+    rebuild_of_lists(lmp, *this, {contact_pipeline, neighbor_source, run_contacts}),
+    large_bodies(lmp, *this)
 {
   contact_pipeline.emplace();
 }
@@ -58,11 +60,11 @@ GranularSystem::~GranularSystem() = default;
 
 /* ---------------------------------------------------------------------- */
 
-bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
+bool GranularSystem::attach(Pair *pair, const AttachedPair::Traits &traits)
 {
-  if (pair) return false;
-  pair = one;
-  style = traits;
+  if (attached.is_there()) return false;
+  attached.set(pair);
+  attached.set_traits(traits);
   monitors.add(
       pair,
       {{0.5,
@@ -80,11 +82,11 @@ bool GranularSystem::attach(Pair *one, const StyleTraits &traits)
 
 /* A second pair style has never been attached. */
 
-void GranularSystem::detach(const Pair *one)
+void GranularSystem::detach(const Pair *pair)
 {
-  if (!pair || one != pair) return;
+  if (!pair || pair != attached.get()) return;
   monitors.remove(pair);
-  pair = nullptr;
+  attached.set(nullptr);
   contact_store = nullptr;
   pair_coeffs = PairCoeffs{};
   prepared.reset();
@@ -96,31 +98,14 @@ void GranularSystem::detach(const Pair *one)
     if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
 }
 
-bool GranularSystem::pair_style_is_alone() const
-{
-  return pair && (force->pair == pair || computes_all_of_hybrid(*pair, *force, atom->ntypes));
-}
-
-/* Style hybrid/scaled multiplies forces, and other ones are not known. */
-
-std::string GranularSystem::reason_of_pair_style() const
-{
-  if (!pair) return "the pair style is not accelerated";
-  if (force->pair == pair) return "";
-  const std::string style_of_all = force->pair_style;
-  if (style_of_all != "hybrid" && style_of_all != "hybrid/overlay")
-    return "the pair style is " + style_of_all;
-  return pair->compute_flag ? "" : "'pair_modify compute no' is set";
-}
-
 void GranularSystem::init_pair_style()
 {
   run_contacts.keep();
-  neighbor_source.init(pair);
+  neighbor_source.init(attached.get());
   gravity.forget();
   effective_masses.find_fixes();
   contact_range.find(effective_masses.frozen_groups(), shaped.get());
-  contact_range.require_sizes(style.name);
+  contact_range.require_sizes(attached.name());
   create_store();
   monitors.start();
   time_step.start();
@@ -133,7 +118,7 @@ void GranularSystem::create_store()
   if (!modify->get_fix_by_id(expected))
     error->all(FLERR,
                "Pair style {}: its internal fix {} has been deleted: remove the unfix command",
-               style.name, expected);
+               attached.name(), expected);
   if (contact_store) return;
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
   const double largest = contact_range.radii().largest();
@@ -141,7 +126,7 @@ void GranularSystem::create_store()
   const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
   contact_store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
   if (!contact_store)
-    error->all(FLERR, "Pair style {}: cannot create fix {}", style.name, store_id);
+    error->all(FLERR, "Pair style {}: cannot create fix {}", attached.name(), store_id);
   contact_store->serve(this);
 }
 
@@ -157,13 +142,27 @@ void GranularSystem::prepare_laws()
   contact_pipeline->set_laws(table);
   prepared = pair_coeffs.revision();
 
-  const std::string description = "Talus " + style.name + ": " + pair_coeffs.describe(table);
+  const std::string description = "Talus " + attached.name() + ": " + pair_coeffs.describe(table);
   if (comm->me == 0 && description != announced) utils::logmesg(lmp, description);
   announced = description;
   const std::string problem = contact_pipeline->keeps_history() ? contact_range.small_period() : "";
   if (problem.empty()) return;
-  if (!style.allows_small_period) error->all(FLERR, "Pair style {}: {}", style.name, problem);
-  if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", style.name, problem);
+  if (!attached.traits().allows_small_period)
+    error->all(FLERR, "Pair style {}: {}", attached.name(), problem);
+  if (comm->me == 0) error->warning(FLERR, "Pair style {}: {}", attached.name(), problem);
+}
+
+/* What is made of all pairs, such as masses, depends on particles and lists alone. */
+
+void GranularSystem::exchange_state(StateExchange &x)
+{
+  energies.exchange_state(x);
+  if (x.restores()) {
+    monitors.forget_step();
+    if (contact_store && contact_pipeline->has_pairs())
+      contact_pipeline->take_back_histories(contact_store->histories());
+  }
+  run_contacts.exchange_state(x);
 }
 
 const LawTable &GranularSystem::law_table()

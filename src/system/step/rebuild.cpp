@@ -1,16 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-//
-// From old neighbor lists to new ones. FixContactStore calls these at LAMMPS' hooks:
-//
-//   pre_exchange     look_at_contacts(), keep_history(), release_*()
-//                    LAMMPS migrates particles, which carry their slots or their histories
-//   post_neighbor    renumber_pairs()
 
-#include "system/step/granular_system.h"
+#include "system/step/rebuild.h"
 
-#include "base/state_exchange.h"
 #include "system/contacts/fix_contact_store.h"
+#include "system/exchange/direct_exchange.h"
 #include "system/shapes/shaped_particles.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -28,106 +23,101 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void GranularSystem::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
+void Rebuild::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
 {
-  if (!pairs_stay) contact_pipeline->release_records();
-  contact_pipeline->keep_history(to, scope, pairs_stay);
-  if (shaped) shaped->keep_histories();
+  if (!pairs_stay) contacts().release_records();
+  contacts().keep_history(to, scope, pairs_stay);
+  if (ShapedParticles *shapes = system.shapes()) shapes->keep_histories();
 }
 
 /* Pairs and states stay until the next set-up. */
 
-void GranularSystem::end_contacts_of_run()
+void Rebuild::end_contacts_of_run()
 {
-  contact_pipeline->leave_records();
-  run_contacts.end_run();
+  contacts().leave_records();
+  parts.for_outputs.end_run();
 }
 
 /* The timer of LAMMPS stands at the fixes; the work is that of neighbor lists. */
 
-void GranularSystem::renumber_pairs()
+void Rebuild::renumber_pairs()
 {
-  if (!pair->list)
+  if (!system.pair_style().get()->list)
     error->all(FLERR,
                "Pair style {}: 'run ... pre no' cannot follow a new pair style: leave 'pre no' out",
-               style.name);
-  prepare_laws();
+               system.pair_style().name());
+  system.law_table();
   timer->stamp(Timer::MODIFY);
-  contact_pipeline->release();
-  const DirectExchange *direct = exchange_switch.direct();
-  contact_pipeline->set_work(comm->nthreads, direct && direct->overlaps());
+  contacts().release();
+  const DirectExchange *direct = system.exchange().direct();
+  contacts().set_work(comm->nthreads, direct && direct->overlaps());
   try {
-    if (given_pairs)
-      contact_pipeline->set_lists(given_pairs, atom->type);
-    else
-      find_pairs();
-    contact_pipeline->start_pairs(contact_store->histories());
-    change_order_of_histories();
+    make_pairs();
   } catch (const std::length_error &problem) {
-    error->one(FLERR, "Pair style {}: {}: use more ranks", style.name, problem.what());
+    error->one(FLERR, "Pair style {}: {}: use more ranks", system.pair_style().name(),
+               problem.what());
   } catch (const std::bad_alloc &) {
     error->one(FLERR,
                "Pair style {}: not enough memory for the pairs of {} particles and {} ghosts of a "
                "rank: use more machines",
-               style.name, atom->nlocal, atom->nghost);
+               system.pair_style().name(), atom->nlocal, atom->nghost);
   }
-  lists.are_new();
-  gravity.find_weightless(*contact_pipeline);
-  contact_store->pairs_are_numbered(contact_pipeline->particle_order());
+  system.made_lists().are_new();
+  system.weights().find_weightless(contacts());
+  system.store()->pairs_are_numbered(contacts().particle_order());
   timer->stamp(Timer::NEIGH);
-  contact_pipeline->set_own_masses(effective_masses.bodies_are_rigid() ? atom->rmass : nullptr);
-  effective_masses.update();
-  if (effective_masses.needed()) comm->forward_comm(pair);
+  contacts().set_own_masses(system.masses().bodies_are_rigid() ? atom->rmass : nullptr);
+  system.masses().update();
+  if (system.masses().needed()) comm->forward_comm(system.pair_style().get());
 }
 
-void GranularSystem::find_pairs()
+void Rebuild::make_pairs()
+{
+  if (given_pairs)
+    contacts().set_lists(given_pairs, atom->type);
+  else
+    find_pairs();
+  contacts().start_pairs(system.store()->histories());
+  change_order_of_histories();
+}
+
+void Rebuild::find_pairs()
 {
   const int nall = atom->nlocal + atom->nghost;
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
-  NeighborView found = neighbor_source.find(pair->list, contact_range.largest_pulloff_distance());
-  if (shaped) found = without_shapes(found);
-  contact_pipeline->set_pairs({atom->nlocal, contact_store->all_keys(), tags, atom->type}, found);
-  neighbor_source.release();
-}
-
-/* What is made of all pairs, such as masses, depends on particles and lists alone. */
-
-void GranularSystem::exchange_state(StateExchange &x)
-{
-  energies.exchange_state(x);
-  if (x.restores()) {
-    monitors.forget_step();
-    if (contact_store && contact_pipeline->has_pairs())
-      contact_pipeline->take_back_histories(contact_store->histories());
-  }
-  run_contacts.exchange_state(x);
+  NeighborView found = parts.neighbors.find(system.pair_style().get()->list,
+                                            system.range().largest_pulloff_distance());
+  if (system.shapes()) found = without_shapes(found);
+  contacts().set_pairs({atom->nlocal, system.store()->all_keys(), tags, atom->type}, found);
+  parts.neighbors.release();
 }
 
 /* Where a run goes on with the other order. */
 
-void GranularSystem::change_order_of_histories()
+void Rebuild::change_order_of_histories()
 {
-  const int before = contact_store->order_of_histories(), now = movers.order();
-  contact_store->set_order_of_histories(now);
+  const int before = system.store()->order_of_histories(), now = system.integrators().order();
+  system.store()->set_order_of_histories(now);
   if (before == 0 || before == now) return;
-  contact_pipeline->change_order(
-      now, [this](int i, int j) -> const ContactLaw & { return pair_coeffs.law(i, j); });
-  contact_store->keep_histories(contact_pipeline->law_table().history_records(), now);
+  contacts().change_order(
+      now, [this](int i, int j) -> const ContactLaw & { return system.laws().law(i, j); });
+  system.store()->keep_histories(contacts().law_table().history_records(), now);
 }
 
 /* What LAMMPS has found cannot be changed; shapes refuse it in init(). */
 
-NeighborView GranularSystem::without_shapes(const NeighborView &all)
+NeighborView Rebuild::without_shapes(const NeighborView &all)
 {
-  if (!neighbor_source.reason_for_lammps_lists().empty()) return all;
+  if (!parts.neighbors.reason_for_lammps_lists().empty()) return all;
   std::vector<std::array<int, 2>> pairs;
   const int *type = atom->type;
-  const NeighborView rest = neighbor_source.take_out([&](int i, int j) {
-    const bool with_shape = shaped->is_shaped(type[i]) || shaped->is_shaped(type[j]);
+  const NeighborView rest = parts.neighbors.take_out([&](int i, int j) {
+    const bool with_shape =
+        system.shapes()->is_shaped(type[i]) || system.shapes()->is_shaped(type[j]);
     if (with_shape) pairs.push_back({i, j});
     return with_shape;
   });
-  shaped->set_pairs(pairs);
+  system.shapes()->set_pairs(pairs);
   return rest;
 }
 

@@ -50,7 +50,7 @@ void StepsInRecords::start_run(bool pairs_computed)
 void StepsInRecords::report(bool pairs_computed)
 {
   // laws tell what the fixes are asked; they are known since init(), if there are particles to be
-  if (system.reason_of_pair_style().empty()) static_cast<void>(system.law_table());
+  if (system.pair_style().reason_against().empty()) static_cast<void>(system.law_table());
   styles.print(system, find_reason_against(pairs_computed));
 }
 
@@ -70,7 +70,7 @@ bool StepsInRecords::is_looked_at(bigint step) const
 
 std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
 {
-  const std::string of_pair_style = system.reason_of_pair_style();
+  const std::string of_pair_style = system.pair_style().reason_against();
   if (!of_pair_style.empty()) return of_pair_style;
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!SystemRunStyle::of(update->integrate))
@@ -81,7 +81,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
     return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
-  if (!system.pair_style_is_alone() && !system.law_table().has_friction())
+  if (!system.pair_style().is_alone() && !system.law_table().has_friction())
     return "the pair style is hybrid, and contacts have no torques";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";

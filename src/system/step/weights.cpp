@@ -18,7 +18,7 @@ namespace Talus {
 
 std::string Weights::take(const Fix *gravity, std::function<const double *()> field)
 {
-  const std::string of_pair_style = system.reason_of_pair_style();
+  const std::string of_pair_style = system.pair_style().reason_against();
   if (!of_pair_style.empty()) return of_pair_style;
   if (!force->pair->compute_flag) return "'pair_modify compute no' is set";
   if (system.masses().unit() != 1.0)
