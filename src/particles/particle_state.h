@@ -41,8 +41,6 @@ class ParticleState {
   /// of the last step.
   void replace_masses(const double *mass_override) { arrays.mass_override = mass_override; }
 
-  /// Particles are in the arrays of LAMMPS, as in all steps that LAMMPS reads or writes them in.
-  bool is_in_arrays() const { return !in_records; }
   /// The records, for code that moves many particles in its own way; nullptr: particles are in the
   /// arrays.
   ParticleRecords *records() const { return in_records; }

@@ -204,6 +204,27 @@ thermo_modify format float %.15g
         again = thermo(self.run_lammps(restart + commands + "run 50\n").log)
         self.assertAlmostEqual(again[-1]["f_body[1][3]"], rows[-1]["f_body[1][3]"], delta=1e-13)
 
+    def test_means_of_loads_go_on_after_a_restart(self):
+        """Sums over the steps since the last picture, of all ranks: files are read by one rank or two."""
+        plate = [((-2, -2, 0), (2, -2, 0), (2, 2, 0)), ((-2, -2, 0), (2, 2, 0), (-2, 2, 0))]
+        body_meshes.write_stl(self.path("plate.stl"), plate)
+        write_sphere_data(self.path("grains"), ((-9, 9), (-9, 9), (-9, 9)),
+                          [Sphere((1, -0.5, 0.49949), v=(2, 0, 0)), Sphere((-1, 0.5, 0.499), v=(-1, 0, 0))])
+        commands = """
+fix body all large/body mesh plate.stl contact hooke 1e4 0 tangential multistep NULL NULL 0.5 pressure average
+thermo_style custom step f_body[1][1] f_body[2][1] f_body[1][2] f_body[2][3]
+thermo 30
+thermo_modify format float %.15g
+"""
+        whole = thermo(self.run_lammps(SCENE + commands + "run 30\nwrite_restart half\nrun 30\n", np=2).log)[-1]
+        restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace("read_data grains", "read_restart half")
+        for np in 1, 2:
+            again = thermo(self.run_lammps(restart + commands + "run 30\n", np=np).log)[-1]
+            for word, value in whole.items():
+                self.assertAlmostEqual(again[word], value, delta=1e-12 * abs(value), msg=word)
+        self.assertGreater(whole["f_body[1][1]"], 1.1 * whole["f_body[2][1]"])
+        self.assertGreater(whole["f_body[2][3]"], 0.0)
+
     def test_pictures(self):
         picture = SCENE + """
 fix body all large/body {shape} contact hooke 1 0 {more}

@@ -12,7 +12,7 @@ using namespace LAMMPS_NS;
 using namespace Talus;
 
 RegionWall::RegionWall(Region &r, const Domain &domain, bool radii_vary) :
-    region(domain, r), dynamic(r.dynamic_check()), bounded(has_distance(r) && !radii_vary),
+    region(&r), dynamic(r.dynamic_check()), bounded(has_distance(r) && !radii_vary),
     simple(bounded && !is_composite(r)), in_frame(dynamic && simple), span(r, domain)
 {
   if (bounded) parts = RegionParts(r);

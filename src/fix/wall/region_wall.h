@@ -5,12 +5,14 @@
 
 #include "base/linear_algebra.h"
 #include "body/contact/wall_surface.h"
-#include "system/regions/region_handle.h"
 #include "system/regions/region_surface.h"
 
 #include <vector>
 
 namespace LAMMPS_NS {
+
+class Domain;
+class Region;
 
 /// The surface of the region of a fix wall/gran/region: which spheres may touch it is found eight at a
 /// time, what they touch the region is asked. It keeps the contacts that it has found last.
@@ -20,8 +22,6 @@ class RegionWall : public Talus::WallSurface {
   /// In init() of the fix. `radii_vary`: then all particles may touch it in every step.
   RegionWall(Region &region, const Domain &domain, bool radii_vary);
 
-  /// Between two runs it may be gone: then nothing is to be asked.
-  bool is_there() const { return region.is_there(); }
   /// In each step.
   void place();
   /// It moves or changes its shape.
@@ -50,7 +50,7 @@ class RegionWall : public Talus::WallSurface {
                           bool listed) const;
   Talus::Vector3<double> velocity_at(const Talus::Vector3<double> &center, int contact) const;
 
-  Talus::RegionHandle region;
+  Region *region = nullptr;
   bool dynamic = false;          // it moves or changes its shape
   bool bounded = false;          // distances from it are known
   bool simple = false;           // and it is not made of others

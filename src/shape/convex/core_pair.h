@@ -15,7 +15,6 @@ struct CorePair {
   Pose seen;    ///< of b in the frame of a
 
   Vector3<double> vertex_of_b(int v) const { return seen.point_in_space(b.vertex(v)); }
-  Vector3<double> normal_of_b(int f) const { return seen.direction_in_space(b.normal(f)); }
   /// Size of both, to which tolerances relate.
   double scale() const { return a.outer_radius() + b.outer_radius(); }
 };

@@ -126,7 +126,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const BodyLoad &exact_load();
   /// Collective.
   const BodyLoad &load();
-  double contacts_here() const { return mine.contacts; }
   // ---- what the particles have given to the body over many steps
 
   /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all

@@ -125,7 +125,7 @@ void LargeBodyMotion::evaluate_region(double dt)
 
 void LargeBodyMotion::follow(Region &followed, const Vector3<double> &reference)
 {
-  region = RegionHandle(*domain, followed);
+  region = &followed;
   const Kind before = kind;
   kind = followed.dynamic ? Kind::REGION : Kind::NONE;
   now.moves = moves();

@@ -11,7 +11,6 @@
 #include "body/motion/servo_response.h"
 #include "body/shape/mesh_shape.h"
 #include "system/bodies/body_motion_spec.h"
-#include "system/regions/region_handle.h"
 
 #include "pointers.h"
 
@@ -97,8 +96,8 @@ class LargeBodyMotion : protected LAMMPS_NS::Pointers {
   MeshShape *mesh = nullptr;    // if its vertices move
   BodyFrame now;
   MotionClock clock;
-  RegionHandle region;          // that the body follows
-  double region_angle = 0.0;    // at the state that `now` has
+  LAMMPS_NS::Region *region = nullptr;    // that the body follows, from init() on
+  double region_angle = 0.0;              // at the state that `now` has
   ExternalMotion external;
   ServoResponse response;
   // of the last step, with integrators of second order: see BodyFrame, and advance()

@@ -25,7 +25,7 @@ RegionShape::RegionShape(Region *r, const char *name, const Domain &domain) : id
 
 void RegionShape::replace(Region *now, const Domain &domain)
 {
-  region = Talus::RegionHandle(domain, *now);
+  region = now;
   span = Talus::PeriodicSpan(*now, domain);
   middle = {0.0, 0.0, 0.0};
   if (region->dynamic) {

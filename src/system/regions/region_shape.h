@@ -4,7 +4,6 @@
 #define TALUS_SYSTEM_REGIONS_REGION_SHAPE_H
 
 #include "body/shape/large_body_shape.h"
-#include "system/regions/region_handle.h"
 #include "system/regions/region_surface.h"
 
 #include <string>
@@ -40,7 +39,7 @@ class RegionShape : public Talus::LargeBodyShape {
                std::vector<Talus::NearPart> &parts) const override;
 
  private:
-  Talus::RegionHandle region;
+  Region *region = nullptr;
   std::string id;
   Talus::Vector3<double> middle{0.0, 0.0, 0.0};
   Talus::PeriodicSpan span;

@@ -7,7 +7,7 @@
 #include "system/host/private_members.h"
 #include "system/host/system_run_style.h"
 #include "system/host/time_formula.h"
-#include "system/regions/region_handle.h"
+#include "system/regions/region_digest.h"
 #include "system/step/granular_system.h"
 
 #include "atom.h"

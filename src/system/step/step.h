@@ -112,7 +112,6 @@ class Step : protected LAMMPS_NS::Pointers {
   ParticleView view() const;
   bool others_look() const;
   void make_pairs_known();
-  ContactStep step_of_contacts(const std::function<void(const TalliedContact &)> *tally);
   void complete_step();
   void complete_step_where(bool integrating, bool placing);
   bool needs_changes(int order) const;

@@ -1,12 +1,11 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "system/regions/region_handle.h"
+#include "system/regions/region_digest.h"
 
 #include "base/state_digest.h"
 #include "system/host/private_members.h"
 #include "system/host/time_formula.h"
 
-#include "domain.h"
 #include "region.h"
 #include "region_block.h"
 #include "region_cone.h"
@@ -15,31 +14,9 @@
 #include "region_prism.h"
 #include "region_sphere.h"
 
-#include <algorithm>
-
 using namespace LAMMPS_NS;
 
 namespace Talus {
-
-RegionHandle::RegionHandle(const Domain &of, Region &one) : domain(&of), region(&one)
-{
-  add(one);
-}
-
-void RegionHandle::add(Region &one)
-{
-  parts.emplace_back(one.id, &one);
-  for (int n = 0; is_composite(one) && n < one.nregion; n++) add(*one.reglist[n]);
-}
-
-bool RegionHandle::is_there() const
-{
-  return region && std::all_of(parts.begin(), parts.end(), [this](const auto &part) {
-           return domain->get_region_by_id(part.first) == part.second;
-         });
-}
-
-/* ---------------------------------------------------------------------- */
 
 namespace {
 
