@@ -20,8 +20,9 @@ namespace Talus {
 
 LargeBody &LargeBodies::add(const Fix *command, LargeBodySpec spec)
 {
-  const auto is_left = [command](const auto &one) { return one->command() == command; };
-  all.erase(std::remove_if(all.begin(), all.end(), is_left), all.end());
+  const auto left = std::find_if(all.begin(), all.end(),
+                                 [command](const auto &one) { return one->command() == command; });
+  if (left != all.end()) remove(**left);
   all.push_back(std::make_unique<LargeBody>(command, system, std::move(spec), lmp));
   return *all.back();
 }
