@@ -86,6 +86,8 @@ bool LargeBodySurface::take_over_sums()
   const std::size_t needed = loads.size();
   if (loads_of_all.size() != needed) {
     loads_of_all.assign(needed, 0.0);
+    starts_new_sums = true;
+    steps = 0;
     return false;
   }
   loads.assign(needed, 0.0);

@@ -49,6 +49,8 @@ class LargeBodyVertices : protected LAMMPS_NS::Pointers {
   template <class Exchange> void exchange_state(Exchange &x)
   {
     mesh.moving()->exchange_state(x);
+    if (x.restores() && !mesh.moving()->state_fits())
+      return;    // sums are of vertices that are not there
     if constexpr (Exchange::of_each_rank) x(forces, kicks);
     x(sums, time);
     if (Exchange::of_each_rank && x.restores()) mesh.vertices_are_restored();
