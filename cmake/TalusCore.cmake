@@ -32,7 +32,9 @@ function(talus_add_code suffix)
   target_link_libraries(${core} PUBLIC talus_flags${suffix} Eigen3::Eigen
     PRIVATE $<TARGET_NAME_IF_EXISTS:ccd>)
   target_compile_options(${core} PRIVATE ${talus_index_flags})
-  target_compile_definitions(${core} PRIVATE TALUS_HAS_CCD=$<TARGET_EXISTS:ccd>)
+  # of its one user alone: other sources are compiled the same with and without it, and come from the cache
+  set_property(SOURCE "${PROJECT_SOURCE_DIR}/src/shape/convex/mpr_contact.cpp" PROPERTY COMPILE_DEFINITIONS
+    TALUS_HAS_CCD=$<TARGET_EXISTS:ccd>)
 
   target_precompile_headers(${core} PRIVATE ${talus_headers})
 

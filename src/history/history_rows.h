@@ -82,15 +82,10 @@ class HistoryRows {
     for (int k = 0; k < num_records; k++) planes[k][row] = from[k];
   }
 
-  /// To 4 records() consecutive numbers, and back.
+  /// To 4 records() consecutive numbers.
   void write(std::size_t row, double *to) const
   {
     for (int k = 0; k < num_records; k++) std::memcpy(to + 4L * k, &planes[k][row], sizeof(Record));
-  }
-  void read(std::size_t row, const double *from)
-  {
-    for (int k = 0; k < num_records; k++)
-      std::memcpy(&planes[k][row], from + 4L * k, sizeof(Record));
   }
   /// As values of which those beyond records() are zero, and back. Compilers see that these do not go
   /// beyond the end.

@@ -9,9 +9,9 @@
 
 namespace Talus {
 
-void HistoryStore::keep(int records)
+void HistoryStore::keep(int number)
 {
-  lists.keep(4 * records);
+  records = number;
   named.keep(records);
 }
 
@@ -73,17 +73,17 @@ void HistoryStore::add_message(int rank, std::int64_t first, std::int64_t second
   const std::size_t begin = to.size();
   to.resize(begin + 2);
   std::memcpy(&to[begin], names, sizeof names);
-  to.insert(to.end(), history.begin(), history.begin() + lists.values());
+  to.insert(to.end(), history.begin(), history.begin() + 4L * records);
 }
 
 void HistoryStore::receive(const std::vector<double> &message)
 {
-  const std::size_t stride = 2 + lists.values();
+  const std::size_t stride = 2 + 4L * records;
   for (std::size_t n = 0; n < message.size(); n += stride) {
     std::int64_t names[2];
     std::memcpy(names, &message[n], sizeof names);
     HistoryValues history{};
-    std::copy_n(&message[n + 2], lists.values(), history.data());
+    std::copy_n(&message[n + 2], 4L * records, history.data());
     named.insert(names[0], names[1], history);
   }
 }
@@ -145,17 +145,13 @@ void HistoryStore::clear()
 {
   filled = false;
   order = nullptr;
-  lists.clear();
   named.clear();
   touched_image.clear();
   messages.clear();
   most_partners = 0;
   if (memory_usage() < release_threshold) return;
-  const int records = num_records(), particles = static_cast<int>(origins.size());
   chunks = {};
   named = {};
-  lists = {};
-  lists.grow(particles);
   keep(records);
   release(followers);
   release(followers_begin);

@@ -42,7 +42,7 @@ class HistoryStore {
 
   /// Records of each contact from now on, see HistoryRows::keep().
   void keep(int records);
-  int num_records() const { return lists.values() / 4; }
+  int num_records() const { return records; }
 
   // ---- what particles carry along, by local index ---------------------------------------------
 
@@ -51,7 +51,7 @@ class HistoryStore {
     std::int64_t name = 0;                ///< its tag then; 0: it was in none
     std::int32_t rank = -1, slot = -1;    ///< where it was owned, if known
   };
-  /// Room for particles 0 ... capacity-1; new ones were in no list.
+  /// Room for particles 0 ... capacity-1; new ones were in no list and have no contacts.
   void resize(int capacity);
   void copy(int from, int to);
   /// A new particle has this index.
@@ -80,7 +80,7 @@ class HistoryStore {
   const Messages &outgoing() const { return messages; }
   void receive(const std::vector<double> &message);
 
-  /// Removes all histories, and releases the memory if it is large.
+  /// Removes all histories but those of the lists, and releases the memory if it is large.
   void clear();
   bool empty() const { return !filled && lists.empty(); }
   /// Histories have been put aside since clear(): the same on all ranks.
@@ -88,7 +88,15 @@ class HistoryStore {
 
   // ---- particles under way ---------------------------------------------------------------------
 
-  /// An owned particle with its contacts as a list (see ContactLists), for a message to its new
+  /// Of owned particles: contacts that they brought, and those of others than spheres, see
+  /// ContactMemory.
+  ContactLists lists;
+  static bool is_of_spheres(const ContactLists::Contact &one)
+  {
+    return one.partner > 0 && !(one.feature & ContactLists::of_shape);
+  }
+
+  /// An owned particle with all its contacts as a list (see ContactLists), for a message to its new
   /// rank. Returns the number of doubles.
   int pack(int atom, double *buffer);
   int unpack(int atom, const double *buffer);
@@ -97,8 +105,8 @@ class HistoryStore {
   int unpack_list(int atom, const double *buffer);
   /// Upper limits: of one list and of all (doubles).
   int list_size(int atom) const;
-  int largest_list(int owned) const { return lists.size_of_list(largest_count(owned)); }
-  /// The most contacts that one of the owned particles may have.
+  int largest_list(int owned) const;
+  /// The most contacts between spheres that one of the owned particles may have.
   int largest_count(int owned) const;
   /// The name of a particle out of a restart file, which has no contacts yet.
   void set_name(int atom, std::int64_t name);
@@ -135,7 +143,13 @@ class HistoryStore {
   double memory_usage() const;
 
  private:
-  bool was_here(const Origin &o) const { return filled && o.rank == me && o.slot >= 0; }
+  /// Since then contacts in lists are not its own.
+  bool was_numbered_here(const Origin &o) const { return o.rank == me && o.slot >= 0; }
+  bool was_here(const Origin &o) const { return filled && was_numbered_here(o); }
+  bool is_in_list(int atom, const ContactLists::Contact &one) const
+  {
+    return is_of_spheres(one) && !was_numbered_here(origins[atom]);
+  }
   FoundHistory find_by_slots(int a, int b) const;
   FoundHistory find_in(int c, int a, int b) const;
   template <class Visit> void for_each_chunk(Visit visit) const;
@@ -145,15 +159,16 @@ class HistoryStore {
   template <class Visit> void for_each_partner(int slot, Visit visit);
   void name_contacts(const ParticleOrder &order);
   void name_lists(int owned);
+  HistoryValues values_of(const ContactLists::Contact &one) const;
   void add_message(int rank, std::int64_t first, std::int64_t second, const HistoryValues &history);
   int plain_slot(int atom) const;
   template <class Visit> void for_each_contact_of_slot(int slot, Visit visit);
 
   int me;
+  int records = 1;
 
   // by local index
   std::vector<Origin> origins;
-  ContactLists lists;                  // of owned ones that brought their contacts
   std::vector<std::int32_t> owners;    // by ghost
 
   // contacts of the last lists, by the slots of then

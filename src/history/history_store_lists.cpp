@@ -176,27 +176,34 @@ template <class Visit> void HistoryStore::for_each_contact_of_slot(int slot, Vis
 
 int HistoryStore::pack_list(int atom, double *buffer)
 {
-  if (!was_here(origins[atom]) || !scope.particles_may_leave) return lists.pack(atom, buffer);
-  int count = 0;
-  double *to = buffer + ContactLists::size_head;
-  for_each_contact_of_slot(
-      origins[atom].slot, [&](std::int64_t partner, const HistoryValues &history) {
-        ContactLists::write_name(partner, 0, to);
-        to = std::copy_n(history.begin(), lists.values(), to + ContactLists::size_name);
-        count++;
-      });
-  buffer[0] = count;
-  buffer[1] = lists.values();
-  return static_cast<int>(to - buffer);
+  ContactLists::Writer to(buffer);
+  const bool by_slots = was_here(origins[atom]);
+  if (by_slots && scope.particles_may_leave)
+    for_each_contact_of_slot(origins[atom].slot,
+                             [&](std::int64_t partner, const HistoryValues &history) {
+                               to.add({partner, 0, history.data(), 4 * records});
+                             });
+  lists.for_each(atom, [&](const ContactLists::Contact &one) {
+    if (!is_of_spheres(one) || is_in_list(atom, one)) to.add(one);
+  });
+  return to.size();
 }
 
-/* Of a particle that only passes through another rank and comes back, everything is here. */
+/* Of a particle that only passes through another rank and comes back, contacts between spheres are here. */
 
 int HistoryStore::unpack_list(int atom, const double *buffer)
 {
-  const int size = lists.unpack(atom, buffer);
-  if (was_here(origins[atom])) lists.forget(atom);
-  return size;
+  const bool has_slots = was_here(origins[atom]);
+  return lists.unpack(atom, buffer, [has_slots](const ContactLists::Contact &one) {
+    return has_slots && is_of_spheres(one);
+  });
+}
+
+HistoryValues HistoryStore::values_of(const ContactLists::Contact &one) const
+{
+  HistoryValues values{};
+  std::copy_n(one.value, std::min(one.values, 4 * records), values.begin());
+  return values;
 }
 
 std::vector<HistoryStore::Contact> HistoryStore::contacts_of(int atom)
@@ -207,17 +214,15 @@ std::vector<HistoryStore::Contact> HistoryStore::contacts_of(int atom)
                              [&](std::int64_t partner, const HistoryValues &history) {
                                found.push_back({partner, history});
                              });
-  else
-    lists.for_each(atom, [&](const ContactLists::Contact &contact) {
-      found.push_back({contact.partner, {}});
-      std::copy_n(contact.value, lists.values(), found.back().history.begin());
-    });
+  lists.for_each(atom, [&](const ContactLists::Contact &one) {
+    if (is_in_list(atom, one)) found.push_back({one.partner, values_of(one)});
+  });
   return found;
 }
 
 void HistoryStore::add(int atom, const Contact &one)
 {
-  std::copy_n(one.history.begin(), lists.values(), lists.add(atom, one.partner));
+  std::copy_n(one.history.begin(), 4L * records, lists.add(atom, one.partner, 0, 4 * records));
 }
 
 void HistoryStore::set_name(int atom, std::int64_t name)
@@ -229,16 +234,28 @@ void HistoryStore::set_name(int atom, std::int64_t name)
 int HistoryStore::list_size(int atom) const
 {
   const Origin &o = origins[atom];
-  if (!was_here(o) || !scope.particles_may_leave) return lists.packed_size(atom);
+  int size = lists.packed_size(atom);
+  if (!was_here(o) || !scope.particles_may_leave) return size;
   const std::uint32_t *begin = &followers_begin[o.slot];
-  return lists.size_of_list(row_size(o.slot) +
-                            static_cast<int>(followers_listed ? begin[1] - begin[0] : begin[2]));
+  const int partners =
+      row_size(o.slot) + static_cast<int>(followers_listed ? begin[1] - begin[0] : begin[2]);
+  return size + partners * (ContactLists::size_name + 4 * records);
+}
+
+int HistoryStore::largest_list(int owned) const
+{
+  const int partners = filled ? most_partners : 0;
+  return lists.largest_packed(owned) + partners * (ContactLists::size_name + 4 * records);
 }
 
 int HistoryStore::largest_count(int owned) const
 {
   int largest = filled ? most_partners : 0;
-  for (int i = 0; !lists.empty() && i < owned; i++) largest = std::max(largest, lists.count(i));
+  for (int i = 0; !lists.empty() && i < owned; i++) {
+    int count = 0;
+    lists.for_each(i, [&](const ContactLists::Contact &one) { count += is_in_list(i, one); });
+    largest = std::max(largest, count);
+  }
   return largest;
 }
 
@@ -246,14 +263,10 @@ int HistoryStore::largest_count(int owned) const
 
 void HistoryStore::name_lists(int owned)
 {
-  for (int i = 0; !lists.empty() && i < owned; i++) {
-    if (was_here(origins[i])) continue;
-    lists.for_each(i, [&](const ContactLists::Contact &contact) {
-      HistoryValues history{};
-      std::copy_n(contact.value, lists.values(), history.begin());
-      named.insert(origins[i].name, contact.partner, history);
+  for (int i = 0; !lists.empty() && i < owned; i++)
+    lists.for_each(i, [&](const ContactLists::Contact &one) {
+      if (is_in_list(i, one)) named.insert(origins[i].name, one.partner, values_of(one));
     });
-  }
 }
 
 }    // namespace Talus

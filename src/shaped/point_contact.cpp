@@ -14,7 +14,8 @@ bool keep_history(const PointContact &point, int particle, std::int64_t partner,
 {
   const PointHistory &history = point.history;
   if (std::all_of(history.begin(), history.end(), [](double v) { return v == 0.0; })) return false;
-  std::copy(history.begin(), history.end(), to.add(particle, partner, point.name));
+  std::copy(history.begin(), history.end(),
+            to.add(particle, partner, point.name | ContactLists::of_shape, point_history_size));
   return true;
 }
 
@@ -76,8 +77,8 @@ void continue_at_places(PointContact *points, std::size_t count, const PointCont
 PointContact stored_point(const ContactLists::Contact &one)
 {
   PointContact point{};
-  point.name = one.feature;
-  std::copy_n(one.value, point_history_size, point.history.begin());
+  point.name = one.feature & ~ContactLists::of_shape;
+  std::copy_n(one.value, std::min(one.values, point_history_size), point.history.begin());
   return point;
 }
 

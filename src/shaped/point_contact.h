@@ -42,8 +42,7 @@ struct PointContact {
   EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
 
-/// Adds the history of a point to the list of a particle, of point_history_size values. false: all
-/// values are zero, as those of laws without history, and nothing was added: a point that is not
+/// Adds the history of a point to the list of a particle. false: all values are zero, as those of laws without history, and nothing was added: a point that is not
 /// found there begins with zeros.
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to);
 /// Of the points of a particle with one surface those that are named by their place take the histories of the points

@@ -83,7 +83,7 @@ void ShapedPairs::set_sides(const ShapedView &view, const std::vector<std::int64
 
 /* Points that have only a history so far: the narrow phase will find them again, or drop them. */
 
-void ShapedPairs::restore(const ContactLists &from)
+void ShapedPairs::restore(const ContactLists &from, const std::function<std::int64_t(int)> &name_of)
 {
   for (Chunk &chunk : chunks) {
     chunk.points.clear();
@@ -91,8 +91,11 @@ void ShapedPairs::restore(const ContactLists &from)
     for (int p = chunk.begin; p < chunk.end; p++) {
       const Pair &pair = list[p];
       const bool of_first = pair.first < owned;
+      const std::int64_t name[2] = {name_of(pair.first), name_of(pair.second)};
+      if (name[0] == 0 || name[0] >= name[1]) continue;    // new ones, or renumbered to other sides
       from.for_each(of_first ? pair.first : pair.second, [&](const ContactLists::Contact &one) {
-        if (one.partner != pair.tag[of_first ? 1 : 0]) return;
+        if (one.partner != name[of_first ? 1 : 0] || !(one.feature & ContactLists::of_shape))
+          return;
         chunk.points.push_back(stored_point(one));
         chunk.pair_of_point.push_back(p);
       });

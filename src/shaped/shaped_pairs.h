@@ -39,8 +39,9 @@ class ShapedPairs {
   /// zero until restore(). Pairs of a particle with its own image are left out.
   void set_pairs(const ShapedView &view, const std::vector<std::array<int, 2>> &pairs,
                  const std::vector<std::int64_t> &tag, const LawTable &laws);
-  /// Each pair finds its points in the list of one of its particles that is owned.
-  void restore(const ContactLists &from);
+  /// Each pair finds its points in the list of one of its particles that is owned. `name_of`: the IDs
+  /// that particles had when histories were saved, 0 of new ones.
+  void restore(const ContactLists &from, const std::function<std::int64_t(int)> &name_of);
   /// Adds the histories of points to the lists of all owned particles: with the signs of the first
   /// one, identified by ID of the partner and feature. Where periodic borders are, the ranks on
   /// both sides know a contact from positions that differ by rounding: the rank of the first

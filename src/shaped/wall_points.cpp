@@ -31,7 +31,7 @@ void WallPoints::restore(const ContactLists &from)
   for (Chunk &chunk : chunks)
     for (int n = chunk.begin; n < chunk.end; n++)
       from.for_each(particles[n], [&](const ContactLists::Contact &one) {
-        if (one.partner != name) return;
+        if (one.partner != name || !(one.feature & ContactLists::of_shape)) return;
         chunk.points.push_back(stored_point(one));
         chunk.of_point.push_back(n);
       });

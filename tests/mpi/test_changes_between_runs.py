@@ -44,7 +44,7 @@ run 20
 """
 STOCK = "pair_style gran/hertz/history 1e5 NULL 50 NULL 0.5 1\npair_coeff * *"
 OWN = "pair_style gran/penalty\npair_coeff * * hertz 1e5 50 tangential multistep NULL NULL 0.5"
-WALL = "all wall/gran hooke/history 1e5 NULL 50 NULL 0.5 1 zcylinder 3"
+WALL = "all wall/gran hooke/history 1e5 NULL 50 NULL 0.5 1 xplane -3 3"
 BODY = "all large/body plane 0 0 -3.1  0 0 1 contact hertz 1e5 50 tangential multistep NULL NULL 0.5"
 ON = ""    # the run goes on
 COLUMNS = "x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz"

@@ -124,8 +124,10 @@ class LifeCycle(SceneCase):
         cases = {
             f"{delete}{physics}\nrun 0\n": "Pair style gran/penalty: particles were added or deleted between "
                                            "read_restart and the first run",
-            f"{delete}{bodies[0]}\n": "Fix large/body floor: particles were added or deleted between read_restart "
-                                      "and this command",
+            f"{delete}{bodies[0]}\n": "Pair style gran/penalty: particles were added or deleted between "
+                                      "read_restart and the first run",
+            f"pair_style none\n{delete}{bodies[0]}\n": "Fix large/body: particles were added or deleted between "
+                                                       "read_restart and the first run",
         }
         for np in 1, 2:
             for commands, message in cases.items():

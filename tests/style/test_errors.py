@@ -165,11 +165,13 @@ INPUT = [    # commands after the box, message
      "Pair style does not support rRESPA inner/middle/outer"),
     (f"fix f all large/body {PLANE} {LAW}\n{PAIR}{MOVE}run_style respa 2 2\nrun 0",
      "Fix large/body does not run with run_style respa: use run_style verlet"),
-    ("fix f all CONTACT_STORE", "Fix CONTACT_STORE is internal to the pair styles of Talus"),
-    ("fix f all CONTACT_STORE 1.0", "Fix CONTACT_STORE is internal to the pair styles of Talus"),
+    ("fix f all CONTACT_STORE", "Fix CONTACT_STORE is internal to Talus"),
+    ("fix f all CONTACT_STORE 1.0", "Fix CONTACT_STORE is internal to Talus"),
     ("fix f all TALUS_PAIR_HISTORY", "Fix TALUS_PAIR_HISTORY is internal to the pair styles of Talus"),
     (RUN + "unfix TALUS_CONTACTS\nrun 2", "Pair style gran/penalty: its internal fix TALUS_CONTACTS has "
      "been deleted: remove the unfix command"),
+    (f"fix f all large/body {PLANE} {LAW} tangential multistep NULL NULL 0.5\nunfix TALUS_CONTACTS\n{MOVE}run 2", "Fix large/body f: its internal fix "
+     "TALUS_CONTACTS has been deleted: remove the unfix command"),
     (PAIR + "unfix TALUS_CONTACTS_LATER\n" + MOVE + "run 2", "Pair style gran/penalty: its internal fix "
      "TALUS_CONTACTS_LATER has been deleted: remove the unfix command"),
     (NARROW + RUN, "Pair style gran/penalty: the box is periodic in x with a period of 1.9, below two diameters of the "

@@ -126,7 +126,7 @@ class Damage(SceneCase):
         pair = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
         again = SHAPES.replace("group balls type 1\n", "").replace("group all_of_them union all\n", "")
         self.make(again, pair + SHAPES)
-        self.check({"CONTACT_STORE", "large/body", "shape/gran"}, 6)
+        self.check({"CONTACT_STORE", "shape/gran"}, 6)
 
     def test_clumps_and_walls_of_the_suffix(self):
         self.make(CLUMPS.format(molecules=""), CLUMPS.format(molecules=MOLECULES), SUFFIX)

@@ -128,10 +128,15 @@ class ShapeErrors(SceneCase):
         hooke = SCENE.format(commands=f"{FIX}\nrun 1\nwrite_restart state", pair="hooke 1e4 10")
         head = "units lj\nboundary f f f\nnewton off\natom_style sphere\natom_modify map yes\ncomm_modify vel yes\n"
         again = head + "read_restart state\n{}pair_style gran/penalty\npair_coeff * * hooke 1e4 10\n" + f"{FIX}\nrun 1\n"
+        remember = "fix floor all large/body plane 0 0 -9  0 0 1 contact hooke 1e4 10 tangential multistep NULL NULL 0.5\n"
         self.run_lammps(hooke)
         self.run_lammps(again.format(""))
         for np in 1, 2:
-            log = self.run_lammps(again.format("group one id 1\ndelete_atoms group one\n"), np=np, expect_error=True).log
+            delete = "group one id 1\ndelete_atoms group one\n"
+            log = self.run_lammps(again.format(delete), np=np, expect_error=True).log
+            self.assertIn("ERROR: Pair style gran/penalty: particles were added or deleted between read_restart and the first "
+                          "run, so that contact history cannot be assigned", log)
+            log = self.run_lammps(again.format(remember + delete), np=np, expect_error=True).log
             self.assertRegex(log, "ERROR: Fix shape/gran s: particles were added or deleted between read_restart and this "
                                   "command, so that orientations cannot be assigned: define the fix right after read_restart")
 

@@ -37,7 +37,6 @@ class BodyContactsTest : public testing::TestWithParam<int> {
                : single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, GetParam() == 2);
     contacts.set_laws(laws);
     frame.origin = shape->reference_point();
-    if (contacts.keeps_history()) contacts.history.grow(p.size());
     mask.assign(p.size(), 1);
   }
 

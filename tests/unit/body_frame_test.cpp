@@ -60,7 +60,6 @@ class Scene {
     frame.origin = box.reference_point();
     contacts.set_laws(resisting_law());
     contacts.history.keep(true);
-    contacts.history.grow(p.size());
     mask.assign(p.size(), 1);
     for (int i = 0; i < p.size(); i++) {    // to where the body is, moving with it
       const V x = frame.point_to_space(talus(p.x[i]));

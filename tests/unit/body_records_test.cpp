@@ -74,7 +74,6 @@ class BodyRecordsTest : public testing::TestWithParam<int> {
       for (BodyContacts *contacts : {&body.in_arrays, &body.in_records}) {
         contacts->set_laws(laws);
         contacts->history.keep(false);
-        if (laws.has_history()) contacts->history.grow(p.size());
       }
     }
     mask.assign(p.size(), 1);

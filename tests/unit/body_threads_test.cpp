@@ -38,7 +38,6 @@ Digest digest_of(int threads, int &contacts_found)
   frame.origin = plane.reference_point();
   BodyContacts contacts;
   contacts.set_laws(order_two());
-  contacts.history.grow(p.size());
   const std::vector<int> mask(p.size(), 1);
   std::vector<slow::Vector> force(p.size()), torque(p.size());
   const ParticleState view{p.size(),

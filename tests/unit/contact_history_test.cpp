@@ -14,7 +14,7 @@ using namespace slow;
 namespace {
 
 constexpr double dt = 1e-3;
-constexpr std::size_t empty = 2 + 2;    // luggage without contacts: origin, header of the list
+constexpr std::size_t empty = 2 + 1;    // luggage without contacts: origin, header of the list
 
 LawTable history_laws()
 {
@@ -241,7 +241,7 @@ TEST(ContactHistory, DoesNotComeBackAfterALawWithoutIt)
   rank.compute(p, dt, true);
   Luggage with, without;
   rank.depart(with);
-  EXPECT_EQ(with[0].size(), empty + 2U + 4U);    // partner, feature and history
+  EXPECT_EQ(with[0].size(), empty + 3U + 4U);    // partner, feature, number of values and history
   rank.pipeline.set_laws(single_law({named::Normal::HERTZ, named::Tangential::ONESTEP}, true));
   rank.depart(without);
   EXPECT_EQ(without[0].size(), empty);

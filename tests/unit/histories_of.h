@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What the contacts of a particle with a large body remember, out of what it would take along.
+// What the contacts of a particle with a large body remember, as it would be put aside.
 
 #ifndef TALUS_TEST_HISTORIES_OF_H
 #define TALUS_TEST_HISTORIES_OF_H
@@ -11,17 +11,13 @@
 
 inline std::vector<Talus::HistoryValues> histories_of(Talus::BodyHistory &history, int particle)
 {
-  constexpr int behind_normal = 3;
-  std::vector<double> list(history.size_packed(particle));
-  history.pack(particle, list.data());
+  constexpr int most_particles = 5000;
   Talus::ContactLists lists;
-  lists.keep(static_cast<int>(list[1]));
-  lists.grow(1);
-  lists.unpack(0, list.data());
+  lists.grow(most_particles);
+  history.put_aside(lists, false);
   std::vector<Talus::HistoryValues> found;
-  lists.for_each(0, [&](const Talus::ContactLists::Contact &one) {
-    found.emplace_back();
-    std::copy(one.value + behind_normal, one.value + lists.values(), found.back().begin());
+  lists.for_each(particle, [&](const Talus::ContactLists::Contact &one) {
+    found.push_back(Talus::BodyHistory::values_of(one));
   });
   return found;
 }

@@ -225,7 +225,7 @@ TEST_P(Rebuilds, NothingIsPackedIfNobodyMayLeave)
   step();
   ranks[0].put_aside(false, false);
   const Rank::Luggage all = luggage(false);
-  for (const auto &[i, buffer] : all) ASSERT_EQ(buffer.size(), HistoryStore::size_origin + 2U) << i;
+  for (const auto &[i, buffer] : all) ASSERT_EQ(buffer.size(), HistoryStore::size_origin + 1U) << i;
   ranks[0].rebuild(world, all, random);
   expect_histories();
 }
@@ -349,10 +349,11 @@ TEST(HistoryStore, ReadsListsOfOtherLaws)
       HistoryStore store;
       store.keep(read);
       store.resize(2);
-      std::vector<double> list{1.0, 4.0 * written, 0.0, 0.0};
       const std::int64_t partner = 20;
-      std::memcpy(&list[2], &partner, sizeof partner);
-      for (int n = 0; n < 4 * written; n++) list.push_back(n + 1.0);
+      std::vector<double> values,
+          list(ContactLists::size_head + ContactLists::size_name + 4 * written);
+      for (int n = 0; n < 4 * written; n++) values.push_back(n + 1.0);
+      ContactLists::Writer(list.data()).add({partner, 0, values.data(), 4 * written});
       store.set_name(0, 10);
       store.set_name(1, partner);
       ASSERT_EQ(store.unpack_list(0, list.data()), static_cast<int>(list.size()));

@@ -139,7 +139,7 @@ TEST(IndexArithmetic, HistoriesAbove2GBytes)
   store.begin(work, {true, false});
   history.put_aside(pairs, store.chunk(0), false);
   store.finish(order, 1);
-  EXPECT_EQ(store.list_size(n - 1), 2 + (close - 1) * (2 + 4));
+  EXPECT_EQ(store.list_size(n - 1), 1 + (close - 1) * (3 + 4));
   store.open(order, 1);
   history.fetch(pairs, store);
   EXPECT_EQ(history.record(end - 1).c[1], 2.0);

@@ -103,7 +103,6 @@ class Roller {
   {
     contacts.set_laws(sliding_law());
     contacts.history.keep(shape.most_contacts() > 1, false);
-    contacts.history.grow(1);
     frame.origin = shape.reference_point();
   }
 

@@ -192,7 +192,6 @@ Digest of_body(const LargeBodyShape &shape, bool moves)
   BodyContacts contacts;
   contacts.set_laws(slow::single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, true));
   contacts.history.keep(shape.most_contacts() > 1, false);
-  contacts.history.grow(p.size());
   const std::vector<int> mask(p.size(), 1);
   std::vector<slow::Vector> force(p.size()), torque(p.size());
   const ParticleState view{p.size(),

@@ -1,14 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Histories of contacts with walls of LAMMPS: they rest in the arrays of the stock fix, and contacts are
-// known by the parts that they touch, in the places that the stock fix gives them.
+// Histories of contacts with walls of LAMMPS: contacts are known by the parts that they touch, in the
+// places that the stock fix gives them.
 
 #include "body/contact/body_history.h"
 #include "body/contact/wall_surface.h"
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,28 +15,29 @@ using namespace Talus;
 
 namespace {
 
-/// By particle: part and first value of each contact.
-class Arrays : public HistoryAtRest {
- public:
-  using Row = std::vector<std::pair<int, double>>;
-  mutable std::map<int, Row> rows;
-
-  int count(int i) const override { return static_cast<int>(rows[i].size()); }
-  int read(int i, int k, HistoryValues &values) const override
-  {
-    values[0] = rows[i][k].second;
-    return rows[i][k].first;
-  }
-  void clear(int i) override { rows[i].clear(); }
-  void add(int i, int part, const HistoryValues &values) override
-  {
-    rows[i].emplace_back(part, values[0]);
-  }
-};
-
 class WallHistory : public testing::Test {
  protected:
-  WallHistory() { history.keep_records(1); }
+  WallHistory()
+  {
+    memory.pairs().resize(10);
+    history.keep_records(1);
+    history.rest_in(memory, name);
+  }
+
+  /// What rests there of a particle: part and first value of each contact.
+  using Row = std::vector<std::pair<int, double>>;
+  Row row(int particle) const
+  {
+    Row all;
+    memory.lists().for_each(particle, [&all](const ContactLists::Contact &one) {
+      all.emplace_back(one.feature, BodyHistory::values_of(one)[0]);
+    });
+    return all;
+  }
+  void put(int particle, int part, double value)
+  {
+    history.add(memory.lists_to_fill(), particle, part, {0.0, 0.0, 0.0}, {value});
+  }
 
   /// Of the first candidate: the contacts of a step; the slot of each.
   std::vector<std::uint32_t> touch(const std::vector<int> &parts)
@@ -62,44 +62,45 @@ class WallHistory : public testing::Test {
     for (std::size_t n = 0; n < parts.size(); n++) history.record(slots[n]).c[0] = 10.0 * parts[n];
   }
 
-  Arrays arrays;
+  static constexpr std::int64_t name = -3;
+  ContactMemory memory;
   BodyHistory history;
 };
 
-TEST_F(WallHistory, RestsInTheArrays)
+TEST_F(WallHistory, RestsInTheMemory)
 {
-  history.keep_in(arrays, false);
-  arrays.rows[7] = {{0, 1.5}};
+  history.keep_parts(false);
+  put(7, 0, 1.5);
+  EXPECT_EQ(history.particles_in_contact(10), std::vector<int>{7});
   history.follow({2, 7}, {1, 1});
-  EXPECT_TRUE(arrays.rows[7].empty());
   EXPECT_EQ(history.record(1).c[0], 1.5);
   EXPECT_EQ(history.touched(0), 2U);
   history.begin_step();
   history.set_touching(0, 3U, 1U);
   history.record(0).c[0] = 2.5;
-  history.put_aside();
-  EXPECT_EQ(arrays.rows[2], (Arrays::Row{{0, 2.5}}));
-  EXPECT_TRUE(arrays.rows[7].empty());
-  EXPECT_TRUE(history.is_aside(2));
+  EXPECT_EQ(history.particles_in_contact(10), std::vector<int>{2});
+  memory.put_aside(false);
+  EXPECT_EQ(row(2), (Row{{0, 2.5}}));
+  EXPECT_TRUE(row(7).empty());
+  EXPECT_EQ(history.particles_in_contact(10), std::vector<int>{2});
 }
 
-// The arrays may be those of the stock fix until there are candidates.
-TEST_F(WallHistory, LeavesTheArraysAloneWhileAllIsAside)
+// What comes while all is at rest is taken with the rest.
+TEST_F(WallHistory, TakesWhatIsAdded)
 {
-  history.keep_in(arrays, true);
+  history.keep_parts(true);
   history.follow({4}, {3});
   fill({5});
-  history.put_aside();
-  arrays.rows[4] = {{6, 60.0}, {5, 50.0}};
-  history.put_aside();
+  memory.put_aside(false);
+  put(4, 6, 60.0);
   history.follow({1, 4}, {3, 3});
   EXPECT_EQ(history.count(1), 2);
-  EXPECT_EQ(history.record(history.first_slot(1)).c[0], 60.0);
+  EXPECT_EQ(history.record(history.first_slot(1) + 1).c[0], 60.0);
 }
 
 TEST_F(WallHistory, ContactsContinueThoseWithTheirParts)
 {
-  history.keep_in(arrays, true);
+  history.keep_parts(true);
   history.follow({4}, {6});
   fill({5, 3});
   expect_own_values({3, 5});
@@ -114,17 +115,17 @@ TEST_F(WallHistory, ContactsContinueThoseWithTheirParts)
 
 TEST_F(WallHistory, PlacesAreThoseOfTheStockFix)
 {
-  history.keep_in(arrays, true);
+  history.keep_parts(true);
   history.follow({4}, {6});
   fill({1, 2, 3});
   touch({2, 3});    // the last one takes the place of the first
-  history.put_aside();
-  EXPECT_EQ(arrays.rows[4], (Arrays::Row{{3, 30.0}, {2, 20.0}}));
+  memory.put_aside(false);
+  EXPECT_EQ(row(4), (Row{{3, 30.0}, {2, 20.0}}));
 }
 
 TEST_F(WallHistory, PartsOfOneNumberHaveTheirOwn)
 {
-  history.keep_in(arrays, true);
+  history.keep_parts(true);
   history.follow({4}, {6});
   const std::vector<std::uint32_t> slots = touch({5, 5});
   EXPECT_NE(slots[0], slots[1]);

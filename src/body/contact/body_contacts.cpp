@@ -54,18 +54,29 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
   forget_deepest();
   candidates.list(shape, frame, view, mask, group, skin,
                   largest_pulloff_distance(view, mask, group), threads);
-  if (with_history) history.follow(candidates.atoms(), candidates.room());
+  follow_candidates();
 }
 
 void BodyContacts::find_candidates(const WallSurface &wall, const ParticleState &view,
                                    const int *mask, int group, double way, int threads)
 {
   index.clear();
-  history.put_aside();
+  std::vector<int> in_contact;
+  if (with_history) in_contact = history.particles_in_contact(view.owned());
   candidates.list(
       wall, view, mask, group, way + largest_pulloff_distance(view, mask, group),
-      [this](int i) { return with_history && history.is_aside(i); }, threads);
-  if (with_history) history.follow(candidates.atoms(), candidates.room());
+      [&](int i) { return std::binary_search(in_contact.begin(), in_contact.end(), i); }, threads);
+  follow_candidates();
+}
+
+/* Laws without history have nothing at rest either. */
+
+void BodyContacts::follow_candidates()
+{
+  if (with_history)
+    history.follow(candidates.atoms(), candidates.room());
+  else
+    history.begin_step();
 }
 
 double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,

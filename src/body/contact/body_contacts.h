@@ -114,13 +114,13 @@ class BodyContacts {
   void forget_deepest();
   double memory_usage() const;
 
-  /// By particle (local index), in scenes whose laws keep history. The owner says what it keeps,
-  /// then grows, moves and saves it with the particles.
+  /// By particle (local index), in scenes whose laws keep history. The owner says what it keeps, and where.
   BodyHistory history;
 
  private:
   BodyTask task_of(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
                    const BodyStep &step);
+  void follow_candidates();
   void index_candidates(const ParticleState &view);
   void start_batches(int threads, bool exact);
   std::size_t first_of(int thread, int threads) const;

@@ -23,96 +23,91 @@ void BodyHistory::set_zero(std::size_t slot)
   if (with_normals) normals[slot] = {0.0, 0.0, 0.0};
 }
 
+BodyHistory::~BodyHistory()
+{
+  leave_memory();
+}
+
 void BodyHistory::keep_records(int records)
 {
   rows.keep(records);
-  lists.keep(size_normal + 4 * records);
 }
 
-/* To the lists, while particles still have the indices that the candidates know. */
-
-void BodyHistory::put_aside()
+void BodyHistory::rest_in(ContactMemory &place, std::int64_t partner)
 {
-  if (are_listed) return;
-  are_listed = true;
-  lists.clear();
-  for (std::size_t c = 0; c < owners.size(); c++) {
-    if (!at_rest) {
-      put_in_lists(c);
-      continue;
-    }
-    at_rest->clear(owners[c]);
+  memory = &place;
+  name = partner;
+  memory->add(*this);
+}
+
+void BodyHistory::leave_memory()
+{
+  if (memory) memory->remove(*this);
+  memory = nullptr;
+}
+
+void BodyHistory::add(ContactLists &to, int particle, std::uint64_t feature,
+                      const Vector3<double> &normal, const HistoryValues &values) const
+{
+  double *const at = to.add(particle, name, feature, size_normal + 4 * rows.records());
+  at[0] = normal.x;
+  at[1] = normal.y;
+  at[2] = normal.z;
+  std::copy_n(values.begin(), 4L * rows.records(), at + size_normal);
+}
+
+HistoryValues BodyHistory::values_of(const ContactLists::Contact &one)
+{
+  HistoryValues values{};
+  const int count = std::min(one.values - size_normal, most_history_values);
+  std::copy_n(one.value + size_normal, std::max(count, 0), values.begin());
+  return values;
+}
+
+void BodyHistory::put_aside(ContactLists &to, bool /*all_ranks*/)
+{
+  for (std::size_t c = 0; c < owners.size(); c++)
     for (int k = 0; k < count(c); k++) {
       const std::size_t slot = first_slot(c) + k;
-      at_rest->add(owners[c], with_several ? parts[slot] : 0, rows.values(slot));
+      const int feature = !with_parts ? k : with_several ? parts[slot] : 0;
+      add(to, owners[c], static_cast<std::uint32_t>(feature), normal_at(slot), rows.values(slot));
     }
+}
+
+int BodyHistory::count_in(const ContactLists &lists, int particle) const
+{
+  int count = 0;
+  lists.for_each(particle, [&](const ContactLists::Contact &one) { count += owns(one); });
+  return with_parts ? count : std::min(count, LargeBodyShape::max_contacts);
+}
+
+std::vector<int> BodyHistory::particles_in_contact(int owned) const
+{
+  std::vector<int> those;
+  if (rests()) {
+    for (int i = 0; i < owned && !memory->lists().empty(); i++)
+      if (count_in(memory->lists(), i) > 0) those.push_back(i);
+    return those;
   }
+  for (std::size_t c = 0; c < owners.size(); c++)
+    if (count(c) > 0) those.push_back(owners[c]);
+  std::sort(those.begin(), those.end());
+  return those;
 }
 
-void BodyHistory::put_in_lists(std::size_t c)
-{
-  for (int k = 0; k < count(c); k++) {
-    double *const to = lists.add(owners[c], 0, k);
-    const std::size_t slot = first_slot(c) + k;
-    const Vector3<double> normal = normal_at(slot);
-    to[0] = normal.x;
-    to[1] = normal.y;
-    to[2] = normal.z;
-    rows.write(slot, to + size_normal);
-  }
-}
-
-int BodyHistory::count_aside(int particle) const
-{
-  return at_rest ? at_rest->count(particle)
-                 : std::min(lists.count(particle), LargeBodyShape::max_contacts);
-}
-
-void BodyHistory::grow(int num_particles)
-{
-  lists.grow(num_particles);
-}
-
-void BodyHistory::copy(int from, int to)
-{
-  put_aside();
-  lists.copy(from, to);
-}
-
-void BodyHistory::forget(int particle)
-{
-  put_aside();
-  lists.forget(particle);
-}
-
-int BodyHistory::pack(int particle, double *buf)
-{
-  put_aside();
-  return lists.pack(particle, buf);
-}
-
-int BodyHistory::unpack(int particle, const double *buf)
-{
-  put_aside();
-  return lists.unpack(particle, buf);
-}
-
-void BodyHistory::exchange_state(StateExchange &x)
-{
-  if (!x.restores()) put_aside();
-  x(lists);
-  are_listed = true;
-}
-
-int BodyHistory::size_packed(int particle)
-{
-  put_aside();
-  return lists.packed_size(particle);
-}
+/* Between two rebuilds there are other candidates without a rest: a body has moved, or they are sorted. */
 
 void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room)
 {
-  put_aside();
+  ContactLists between;
+  if (!rests()) {
+    int last = -1;
+    for (const int i : owners) last = std::max(last, i);
+    for (const int i : candidates) last = std::max(last, i);
+    between.grow(last + 1);
+    put_aside(between, false);
+  }
+  const ContactLists &from = rests() ? memory->lists() : between;
   owners = candidates;
   const std::size_t n = owners.size();
   first.clear();
@@ -120,7 +115,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   touching = std::vector<std::atomic<std::uint8_t>>(with_several ? 0 : (n + 7) / 8);
   std::size_t slots = with_several ? 0 : n;
   for (std::size_t c = 0; c < n && with_several; c++) {
-    const int number = count_aside(owners[c]);
+    const int number = count_in(from, owners[c]);
     counts.push_back(static_cast<std::uint8_t>(number));
     first.push_back(static_cast<std::uint32_t>(slots));
     slots += std::max(room[c], counts[c]);
@@ -128,35 +123,25 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   rows.clear();
   rows.resize(slots);
   normals.resize(with_normals ? slots : 0);
-  parts.resize(with_several && at_rest ? slots : 0);
-  for (std::size_t c = 0; c < n; c++) take_back(c);
-  lists.clear();
-  are_listed = false;
+  parts.resize(with_several && with_parts ? slots : 0);
+  for (std::size_t c = 0; c < n; c++) take_back(c, from);
+  begin_step();
 }
 
 /* The file of a restart may hold more contacts than the body can have now. */
 
-void BodyHistory::take_back(std::size_t c)
+void BodyHistory::take_back(std::size_t c, const ContactLists &from)
 {
-  const int most = with_several ? counts[c] : std::min(count_aside(owners[c]), 1);
+  const int most = with_several ? counts[c] : 1;
   if (!with_several) set_zero(c);
   int k = 0;
-  if (at_rest) {
-    for (; k < most; k++) {
-      HistoryValues values{};
-      const int part = at_rest->read(owners[c], k, values);
-      if (with_several) parts[first_slot(c) + k] = part;
-      set_values(first_slot(c) + k, values);
-    }
-    at_rest->clear(owners[c]);
-  } else {
-    lists.for_each(owners[c], [&](const ContactLists::Contact &contact) {
-      if (k == most) return;
-      const std::size_t slot = first_slot(c) + k++;
-      if (with_normals) normals[slot] = {contact.value[0], contact.value[1], contact.value[2]};
-      rows.read(slot, contact.value + size_normal);
-    });
-  }
+  from.for_each(owners[c], [&](const ContactLists::Contact &one) {
+    if (k == most || !owns(one)) return;
+    const std::size_t slot = first_slot(c) + k++;
+    if (with_normals) normals[slot] = {one.value[0], one.value[1], one.value[2]};
+    if (with_several && with_parts) parts[slot] = static_cast<int>(one.feature);
+    rows.set_values(slot, values_of(one));
+  });
   if (!with_several && k)
     touching[c / 8].fetch_or(static_cast<std::uint8_t>(1U << c % 8), std::memory_order_relaxed);
 }
@@ -291,7 +276,7 @@ double BodyHistory::memory_usage() const
 {
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
   return bytes(owners) + bytes(first) + bytes(counts) + bytes(normals) + bytes(parts) +
-         bytes(touching) + lists.memory_usage() + rows.memory_usage();
+         bytes(touching) + rows.memory_usage();
 }
 
 }    // namespace Talus

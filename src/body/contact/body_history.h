@@ -1,15 +1,12 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Histories of the contacts of particles with one large body. Few particles are near a body, so
+// Histories of the contacts of particles with one large body or wall. Few particles are near it, so
 // only its candidates have room for histories: slots side by side in the order of the candidates,
 // which is that in which a step reads and writes them. A candidate has as many slots as it may have
-// contacts at the same time; where that is one, its slot has its own number. With the first call
-// that moves a particle (local index) they are moved to lists by particle, which follow particles
-// to other indices, ranks and restart files, until there are new candidates. Those of walls of LAMMPS
-// are moved to the arrays of the stock fix instead (HistoryAtRest).
+// contacts at the same time; where that is one, its slot has its own number. While particles get other
+// indices histories rest in ContactMemory.
 //
-//   particles are renumbered   copy(), forget(), pack(), unpack()
-//   new candidates             follow()
+//   candidates are known       follow()
 //   every step                 begin_step(), set_touching() or continue_contacts(), then record()
 //
 // Slots of different candidates may be used by different threads at the same time.
@@ -18,9 +15,8 @@
 #define TALUS_BODY_CONTACT_BODY_HISTORY_H
 
 #include "base/aligned_vector.h"
-#include "base/state_exchange.h"
 #include "body/shape/large_body_shape.h"
-#include "history/contact_lists.h"
+#include "history/contact_memory.h"
 #include "history/history_rows.h"
 
 #include <algorithm>
@@ -32,23 +28,12 @@
 
 namespace Talus {
 
-/// Where contacts are kept while they are not those of candidates, in the place of lists by particle.
-/// Owned particles by local index.
-class HistoryAtRest {
- public:
-  virtual int count(int particle) const = 0;
-  /// Of contact k: the part that is touched, and its history.
-  virtual int read(int particle, int k, HistoryValues &values) const = 0;
-  virtual void clear(int particle) = 0;
-  virtual void add(int particle, int part, const HistoryValues &values) = 0;
-
- protected:
-  ~HistoryAtRest() = default;
-};
-
-class BodyHistory {
+class BodyHistory : public ContactMemory::Holder {
  public:
   BodyHistory() { keep_records(HistoryRows::most_records); }    // laws are not known yet
+  ~BodyHistory();
+  BodyHistory(const BodyHistory &) = delete;
+  BodyHistory &operator=(const BodyHistory &) = delete;
 
   /// `several`: a particle may have more than one contact with the body. `normals`: what
   /// replace_normal() asks for, without several. Call before anything is stored.
@@ -57,42 +42,46 @@ class BodyHistory {
     with_several = several;
     with_normals = several || normals;
   }
-  /// Of a wall: contacts are known by the parts that they touch, and rest in `place`. All particles
-  /// that have some there are among the next candidates.
-  void keep_in(HistoryAtRest &place, bool several)
+  /// Of a wall: contacts are known by the parts that they touch.
+  void keep_parts(bool several)
   {
     with_several = several;
-    at_rest = &place;
+    with_parts = true;
   }
   /// Of each contact from now on, see HistoryRows::keep().
   void keep_records(int records);
 
-  void grow(int num_particles);
-  void copy(int from, int to);
-  void forget(int particle);
-
-  /// For migration and restart, see ContactLists: of each contact its normal, zero if it is not
-  /// kept, and its history. Return the number of doubles.
-  int pack(int particle, double *buf);
-  int unpack(int particle, const double *buf);
-  int size_packed(int particle);
-  int max_packed() const { return lists.size_of_list(LargeBodyShape::max_contacts); }
+  /// They are those of the partner with this name, see ContactMemory::name_of(): of each its normal, zero if
+  /// it is not kept, and its history. Without a memory they are lost when particles get other indices.
+  void rest_in(ContactMemory &memory, std::int64_t partner);
+  /// No longer; what is at rest is dropped.
+  void leave_memory();
+  bool has_memory() const { return memory != nullptr; }
+  /// One that is to be kept there.
+  void add(ContactLists &to, int particle, std::uint64_t feature, const Vector3<double> &normal,
+           const HistoryValues &values) const;
+  /// The history of one that is.
+  static HistoryValues values_of(const ContactLists::Contact &one);
 
   /// From now on slots are those of these particles, in this order; particles that are not among
   /// them have lost theirs. `room`: of each, how many contacts it may have; not asked for without
   /// several().
   void follow(const std::vector<int> &candidates, const std::vector<std::uint8_t> &room);
+  /// Of the first `owned` ones: those with contacts, ascending.
+  std::vector<int> particles_in_contact(int owned) const;
 
-  /// Before the particles of candidates get other indices, or somebody reads what is at rest.
-  void put_aside();
-  /// This particle has contacts there.
-  bool is_aside(int particle) const { return count_aside(particle) > 0; }
-
-  /// For snapshots: what is in lists, by local index; not of walls. Candidates are to be found anew then.
-  void exchange_state(StateExchange &x);
+  // ContactMemory::Holder
+  bool owns(const ContactLists::Contact &one) const override
+  {
+    return one.partner == name && !(one.feature & ContactLists::of_shape);
+  }
+  void put_aside(ContactLists &to, bool all_ranks) override;
 
   /// Before the histories of candidates change.
-  void begin_step() { are_listed = false; }
+  void begin_step()
+  {
+    if (rests()) memory->are_taken(*this);
+  }
 
   bool several() const { return with_several; }
   int num_records() const { return rows.records(); }
@@ -179,19 +168,18 @@ class BodyHistory {
     return with_normals ? normals[slot] : Vector3<double>{0.0, 0.0, 0.0};
   }
   void set_zero(std::size_t slot);
-  void put_in_lists(std::size_t candidate);
-  int count_aside(int particle) const;
+  bool rests() const { return memory && is_at_rest(); }
+  int count_in(const ContactLists &lists, int particle) const;
   void match_parts(std::size_t candidate, const SurfaceContact *found, int count,
                    std::uint32_t *slots);
   int drop_ended_parts(std::size_t slot, int known, const SurfaceContact *found, int count);
-  void take_back(std::size_t candidate);
+  void take_back(std::size_t candidate, const ContactLists &from);
   void clear(std::size_t block, unsigned separated);
 
-  bool with_several = false, with_normals = false;
-  ContactLists lists;                  // of contacts that have been put aside, or have arrived
-  HistoryAtRest *at_rest = nullptr;    // those of walls are there
-  bool are_listed = true;              // all are
-  std::vector<int> owners;             // of candidates: local indices
+  bool with_several = false, with_normals = false, with_parts = false;
+  ContactMemory *memory = nullptr;
+  std::int64_t name = 0;
+  std::vector<int> owners;    // of candidates: local indices
   // by candidate, only with several contacts: first slot, contacts
   std::vector<std::uint32_t> first;
   std::vector<std::uint8_t> counts;

@@ -30,16 +30,16 @@ FixLargeBody::FixLargeBody(LAMMPS *lmp, int narg, char **arg) :
   LargeBodySpec spec = LargeBodyWords(lmp, words).parse();
   body = &system->bodies().add(this, std::move(spec));
   offer_output();
-  keep_history();
 }
 
 FixLargeBody::~FixLargeBody()
 {
-  if (body->keeps_history()) {
-    atom->delete_callback(id, Atom::GROW);
-    atom->delete_callback(id, Atom::RESTART);
-  }
   system->bodies().remove(*body);
+}
+
+void FixLargeBody::post_constructor()
+{
+  if (body->keeps_history()) system->create_store();
 }
 
 void FixLargeBody::offer_output()
@@ -54,7 +54,7 @@ void FixLargeBody::offer_output()
   virial_global_flag = virial_peratom_flag = 1;
   dynamic_group_allow = 1;
   time_depend = body->motion().depends_on_time() ? 1 : 0;
-  restart_global = body->keeps_history() || body->has_state() ? 1 : 0;
+  restart_global = body->has_state() ? 1 : 0;
   nevery = surface.picture_interval();
   if (!surface.records()) return;
   array_flag = 1;

@@ -23,6 +23,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   FixLargeBody(class LAMMPS *, int, char **);
   ~FixLargeBody() override;
 
+  void post_constructor() override;
   int setmask() override;
   void init() override;
   void post_integrate() override;
@@ -55,22 +56,12 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   bool exchanges_all() const override { return true; }
   void state_is_restored() override { body->list_particles(); }
 
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
   double memory_usage() override;
 
  private:
   void offer_output();
-  void keep_history();
 
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::LargeBody *body;         // owned by the system

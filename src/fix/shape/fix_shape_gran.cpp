@@ -32,7 +32,7 @@ FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
   size_vector = size_sums;
   global_freq = 1;
   extscalar = extvector = 1;
-  maxexchange_dynamic = 1;
+  maxexchange = ShapedParticles::size_orientation;
   comm_border = comm_forward = ShapedParticles::size_orientation;
 
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
@@ -48,7 +48,6 @@ FixShapeGran::FixShapeGran(LAMMPS *lmp, int narg, char **arg) :
   Words words = command_words(lmp, "fix shape/gran", narg, arg, 3);
   shapes = &system->define_shapes(this, ParticleShapes(lmp, words).parse());
   array_atom = shapes->orientation_rows();
-  maxexchange = shapes->largest_packed();
 
   system->run_monitor().add(this, {check_of_cores()});
   atom->add_callback(Atom::GROW);
@@ -64,6 +63,11 @@ FixShapeGran::~FixShapeGran()
   system->drop_shapes();
 }
 
+void FixShapeGran::post_constructor()
+{
+  system->create_store();
+}
+
 int FixShapeGran::setmask()
 {
   return INITIAL_INTEGRATE | PRE_NEIGHBOR;
@@ -75,7 +79,6 @@ void FixShapeGran::init()
   shapes->set_sizes(0, atom->nlocal);
   shapes->orient_new(0, atom->nlocal);
   check_scene();
-  maxexchange = shapes->largest_packed();
 }
 
 void FixShapeGran::setup_pre_neighbor()

@@ -50,6 +50,7 @@ class FixShapeGran : public Fix, public Talus::SystemFix {
  public:
   FixShapeGran(class LAMMPS *, int, char **);
   ~FixShapeGran() override;
+  void post_constructor() override;
   int setmask() override;
   void init() override;
   void setup_pre_neighbor() override;

@@ -1,6 +1,6 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
 
-// What travels with particles: orientations and histories of contact points.
+// What travels with particles: orientations.
 
 #include "fix/shape/fix_shape_gran.h"
 
@@ -20,7 +20,7 @@ using namespace Talus;
 namespace {
 
 constexpr int size_orientation = ShapedParticles::size_orientation;
-constexpr int restart_format = 4;
+constexpr int restart_format = 5;
 constexpr int restart_header = size_particle_head + 1;    // of a particle: and its ID
 
 }    // namespace
@@ -86,7 +86,6 @@ void FixShapeGran::exchange_state(StateExchange &x)
 
 void FixShapeGran::write_restart(FILE *fp)
 {
-  shapes->keep_histories();    // on all ranks, before particles are packed
   const bigint particles = Talus::count_particles(lmp);
   if (comm->me) return;
   write_restart_data_of_fix(fp, restart_format, &particles, sizeof particles);
@@ -126,14 +125,14 @@ void FixShapeGran::unpack_restart(int i, int nth)
   shapes->unpack(i, data);
 }
 
-int FixShapeGran::size_restart(int i)
+int FixShapeGran::size_restart(int /*i*/)
 {
-  return restart_header + shapes->packed_size(i);
+  return restart_header + size_orientation;
 }
 
 int FixShapeGran::maxsize_restart()
 {
-  return restart_header + shapes->largest_packed();
+  return restart_header + size_orientation;
 }
 
 double FixShapeGran::memory_usage()

@@ -3,10 +3,10 @@
 // What the accelerated variants of fix wall/gran and fix wall/gran/region share. They are the stock
 // classes (command line, restart data, output), but their contacts are those of a large body with
 // the law of the stock fix (BodyContacts): the numbers are those of the stock class but for
-// rounding. Between steps in which particles are renumbered histories are with the candidates;
-// whenever LAMMPS may look, they are in the arrays of the stock class.
-//
-// Where that is not possible the methods of the stock class are used, with the reason in the log.
+// rounding. Histories rest where those of all bodies do (ContactMemory). In restart files they are as
+// the stock class writes and reads them, with its arrays: these hold them for as long as that takes,
+// and in runs where that is not possible: then the methods of the stock class are used, with the
+// reason in the log.
 
 #ifndef TALUS_FIX_WALL_FIX_WALL_GRAN_ACCELERATED_H
 #define TALUS_FIX_WALL_FIX_WALL_GRAN_ACCELERATED_H
@@ -42,8 +42,7 @@
 namespace Talus {
 
 /// Stock: FixWallGran or a class derived from it.
-template <class Stock>
-class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest {
+template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
  public:
   /// `plain`: name of the style without suffix.
   AcceleratedWall(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg, const char *plain) :
@@ -61,17 +60,21 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   void init() override
   {
-    contacts.history.put_aside();
     Stock::init();
     require_intact_particles(this->lmp);
     is_listed = false;
     stock_reason = find_reason_for_stock();
-    if (!stock_reason.empty()) return;
+    if (!stock_reason.empty()) {
+      fill_arrays();
+      contacts.history.leave_memory();
+      return;
+    }
     wall_law.take(*this->model, this->atom->ntypes);
     contacts.set_laws(wall_law.laws());
     begin_run();
-    contacts.history.keep_in(*this, surface().most_contacts() > 1);
+    contacts.history.keep_parts(surface().most_contacts() > 1);
     contacts.history.keep_records(std::max(wall_law.laws().history_records(), 1));
+    if (this->use_history) take_arrays();
   }
 
   void setup_post_neighbor() override { is_listed = false; }
@@ -97,35 +100,16 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
     return Stock::memory_usage() + contacts.memory_usage() + for_outputs.memory_usage();
   }
 
-  // Particles get other indices, leave or come, or are written into a restart file.
-  void copy_arrays(int from, int to, int remove) override
-  {
-    contacts.history.put_aside();
-    Stock::copy_arrays(from, to, remove);
-  }
-  void set_arrays(int i) override
-  {
-    contacts.history.put_aside();
-    Stock::set_arrays(i);
-  }
-  int pack_exchange(int i, double *buf) override
-  {
-    contacts.history.put_aside();
-    return Stock::pack_exchange(i, buf);
-  }
-  int unpack_exchange(int i, double *buf) override
-  {
-    contacts.history.put_aside();
-    return Stock::unpack_exchange(i, buf);
-  }
+  // Restart files
   int pack_restart(int i, double *buf) override
   {
-    contacts.history.put_aside();
-    return Stock::pack_restart(i, buf) ? append_digest(buf) : 0;
+    fill_row(i);
+    const int size = Stock::pack_restart(i, buf) ? append_digest(buf) : 0;
+    clear_row(i);
+    return size;
   }
   void unpack_restart(int i, int nth) override
   {
-    contacts.history.put_aside();
     if (this->use_history &&
         !stock_particle_data(this->lmp, std::string("Fix ") + plain_style + " " + this->id, i, nth,
                              [this](const double *data) { return stock_size(data); }))
@@ -134,8 +118,10 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   }
   int size_restart(int i) override
   {
-    contacts.history.put_aside();
-    return Stock::size_restart(i) + (this->use_history ? size_of_digest : 0);
+    fill_row(i);
+    const int size = Stock::size_restart(i) + (this->use_history ? size_of_digest : 0);
+    clear_row(i);
+    return size;
   }
   int maxsize_restart() override
   {
@@ -144,7 +130,6 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
-  /// Histories come with the particles.
   void exchange_state(StateExchange &x) override { x(for_outputs); }
   void state_is_restored() override { is_listed = false; }
   bool adds_forces() const override { return true; }
@@ -169,6 +154,12 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
 
   /// Of these data of a particle in a restart file: what the stock class would write, -1 if it cannot be.
   virtual LAMMPS_NS::bigint stock_size(const double *data) const = 0;
+  /// In its arrays, of an owned particle: number of contacts; of contact k the part that is touched, and its
+  /// history; no contacts; a further one.
+  virtual int count(int particle) const = 0;
+  virtual int read(int particle, int k, HistoryValues &values) const = 0;
+  virtual void clear(int particle) = 0;
+  virtual void add(int particle, int part, const HistoryValues &values) = 0;
   /// In init(), if the run is accelerated.
   virtual void begin_run() = 0;
   /// Its surface; where it is in this step.
@@ -191,6 +182,41 @@ class AcceleratedWall : public Stock, public SystemFix, protected HistoryAtRest 
   }
 
  private:
+  /// What the arrays have out of a restart file, or of a run of the stock class, is kept in the memory from here on.
+  void take_arrays()
+  {
+    ContactMemory &memory = system->memory();
+    memory.put_aside(true);
+    contacts.history.rest_in(memory, ContactMemory::name_of(this->id));
+    for (int i = 0; i < this->atom->nlocal; i++) {
+      const int all = count(i);
+      for (int k = 0; k < all; k++) {
+        HistoryValues values{};
+        const int part = read(i, k, values);
+        contacts.history.add(memory.lists_to_fill(), i, part, {0.0, 0.0, 0.0}, values);
+      }
+      if (all) clear(i);
+    }
+  }
+  void fill_arrays()
+  {
+    system->memory().put_aside(true);
+    for (int i = 0; i < this->atom->nlocal; i++) fill_row(i);
+  }
+  void fill_row(int i)
+  {
+    if (!contacts.history.has_memory()) return;
+    system->memory().lists().for_each(i, [&](const ContactLists::Contact &one) {
+      if (contacts.history.owns(one))
+        add(i, static_cast<int>(one.feature), BodyHistory::values_of(one));
+    });
+  }
+  /// Of what fill_row() has filled.
+  void clear_row(int i)
+  {
+    if (contacts.history.has_memory()) clear(i);
+  }
+
   /// Particles and wall together may go as far as the skin.
   bool is_stale(double moved) const
   {

@@ -32,7 +32,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override;
 
-  // HistoryAtRest
+  // the arrays
   int count(int i) const override { return ncontact[i]; }
   int read(int i, int k, Talus::HistoryValues &values) const override;
   void clear(int i) override { ncontact[i] = 0; }

@@ -48,7 +48,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
     return "";
   }
 
-  // HistoryAtRest
+  // the arrays
   int count(int i) const override
   {
     return wall_law.touches(history_one[i]) ? 1 : 0;

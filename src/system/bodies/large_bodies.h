@@ -33,6 +33,7 @@ class LargeBodies : protected LAMMPS_NS::Pointers {
   void remove(const LargeBody &body);
   /// All of them, in the order of the script.
   std::vector<LargeBody *> in_order() const;
+  int count() const { return static_cast<int>(all.size()); }
   /// Of the command with this ID; nullptr: there is none.
   LargeBody *find(const std::string &id) const;
   /// The work of the contacts of one of them is accounted for.

@@ -74,14 +74,16 @@ void LargeBody::keep_history()
       type_of_laws > 0 || std::any_of(specs.begin() + 1, specs.end(), [=](const ContactSpec &s) {
         return s.law.has_history() || (second_order && second_order_law(s.law).has_history());
       });
-  if (with_history)
-    contacts.history.keep(body_shape->most_contacts() > 1, !body_shape->has_one_normal());
+  if (!with_history) return;
+  contacts.history.keep(body_shape->most_contacts() > 1, !body_shape->has_one_normal());
+  contacts.history.rest_in(system.memory(), ContactMemory::name_of(fix->id));
 }
 
 /* ---------------------------------------------------------------------- */
 
 void LargeBody::init()
 {
+  if (with_history) system.require_store(std::string("Fix large/body ") + fix->id);
   body_motion.init();
   monitor.start();
   system.run_monitor().start();

@@ -79,8 +79,6 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   /// As it is in this step; and the laws, after init().
   const BodyFrame &frame() const { return body_motion.frame(); }
   const LawTable &law_table() const { return contacts.law_table(); }
-  /// By particle; the command moves them with the particles and saves them.
-  BodyHistory &history() { return contacts.history; }
 
   // ---- hooks
 
@@ -126,6 +124,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   const BodyLoad &exact_load();
   /// Collective.
   const BodyLoad &load();
+
   // ---- what the particles have given to the body over many steps
 
   /// Between two steps: counts from the next set-up or step on, see ImpulseAccount. Collective, as all

@@ -7,10 +7,6 @@
 #include "base/state_exchange.h"
 #include "base/state_numbers.h"
 
-#include "atom.h"
-
-using namespace LAMMPS_NS;
-
 namespace Talus {
 
 /* Local indices of what was seen may be others. */
@@ -26,9 +22,7 @@ void LargeBody::exchange_state(StateExchange &x)
     for_outputs);
   x.array(digits_here, size_digits);
   x.array(digits_of_all, size_digits);
-  contacts.history.exchange_state(x);
   if (!x.restores()) return;
-  contacts.history.grow(atom->nmax);
   contacts.forget_deepest();
   seen_between = {};
 }
@@ -47,18 +41,17 @@ template <class Write> void write_part(std::vector<double> &all, Write write)
   all[begin] = static_cast<double>(all.size() - begin - 1);
 }
 
-/* read(numbers) is not called where a part is empty. Returns whether it is all that was there, or nothing was. */
+/* read(numbers) is not called where a part is empty. */
 
-template <class Read> bool read_part(const double *&at, const double *end, Read read)
+template <class Read> void read_part(const double *&at, const double *end, Read read)
 {
-  if (at == end) return false;
+  if (at == end) return;
   const double *const begin = at + 1;
-  if (!(*at >= 0.0) || *at > static_cast<double>(end - begin)) return false;
+  if (!(*at >= 0.0) || *at > static_cast<double>(end - begin)) return;
   at = begin + static_cast<std::ptrdiff_t>(*at);
-  if (begin == at) return true;
+  if (begin == at) return;
   StateNumbers numbers(begin, at);
   read(numbers);
-  return numbers.fits();
 }
 
 }    // namespace

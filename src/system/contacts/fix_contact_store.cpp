@@ -9,6 +9,7 @@
 #include "system/step/granular_system.h"
 
 #include "base/in_parallel.h"
+#include "body/shape/large_body_shape.h"
 #include "particles/canonical_key.h"
 
 #include "atom.h"
@@ -27,16 +28,16 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using Talus::HistoryStore;
+using Talus::ContactLists, Talus::HistoryStore, Talus::most_history_values;
 
 /* ---------------------------------------------------------------------- */
 
 FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), store(comm->me), exchange(world)
+    Fix(lmp, narg, arg), system(Talus::GranularSystem::of(lmp)),
+    memory_of_contacts(system->memory()), store(memory_of_contacts.pairs()), exchange(world)
 {
-  if (narg != 4 || !utils::strmatch(id, "^TALUS_CONTACTS"))
-    error->all(FLERR, "Fix CONTACT_STORE is internal to the pair styles of Talus");
-  inverse_cell = 1.0 / utils::numeric(FLERR, arg[3], false, lmp);
+  if (narg != 3 || !utils::strmatch(id, "^TALUS_CONTACTS"))
+    error->all(FLERR, "Fix CONTACT_STORE is internal to Talus");
 
   restart_global = 1;
   restart_peratom = 1;
@@ -44,11 +45,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
   maxexchange_dynamic = 1;
   nevery = 1;    // of the end of step
   set_maxexchange(0);
-  comm_border = size_border;
   comm_forward = size_change;
-  force_reneighbor = 1;
-  next_reneighbor = next_refresh(update->ntimestep);
-
   FixContactStore::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -59,6 +56,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
 FixContactStore::~FixContactStore()
 {
   give_sorting_back();    // after a run that ended in an error
+  if (system->store() == this) system->store_is_gone();
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   atom->delete_callback(id, Atom::BORDER);
@@ -72,9 +70,42 @@ int FixContactStore::setmask()
 
 /* ---------------------------------------------------------------------- */
 
+bool FixContactStore::has_pairs() const
+{
+  return system->pair_style().is_there();
+}
+
+/* For messages. */
+
+std::string FixContactStore::name() const
+{
+  return has_pairs() ? std::string("Pair style ") + system->pair_style().name() : "Fix large/body";
+}
+
+void FixContactStore::use_cells(double edge)
+{
+  if (inverse_cell > 0.0) return;
+  inverse_cell = 1.0 / edge;
+  for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
+}
+
 void FixContactStore::init()
 {
-  if (system) system->definitions().are_listed();
+  Talus::require_intact_particles(lmp);
+  comm_border = has_pairs() ? size_border : 0;
+  force_reneighbor = has_pairs() ? 1 : 0;
+  if (has_pairs()) init_for_pairs();
+  // from a restart file, of which a rank without particles may know nothing
+  const int mine[2] = {store.largest_list(atom->nlocal), order};
+  int largest[2] = {0, 0};
+  MPI_Allreduce(mine, largest, 2, MPI_INT, MPI_MAX, world);
+  set_maxexchange(largest[0]);
+  order = largest[1];
+}
+
+void FixContactStore::init_for_pairs()
+{
+  system->definitions().are_listed();
   // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;
@@ -82,19 +113,12 @@ void FixContactStore::init()
       error->all(FLERR,
                  "Pair style {} must be defined before fix {} {}, which migrates atoms: move the "
                  "pair_style command up",
-                 Talus::GranularSystem::of(lmp)->pair_style().name(), ifix->id, ifix->style);
+                 system->pair_style().name(), ifix->id, ifix->style);
   }
-  Talus::require_intact_particles(lmp);
   next_reneighbor = next_refresh(update->ntimestep);
-  keep_changes(Talus::GranularSystem::of(lmp)->step().needs_changes());
+  keep_changes(system->step().needs_changes());
   guards_positions = !domain->triclinic && !modify->get_fix_by_style("^balance").empty();
   positions.resize(guards_positions ? 3 * keys.size() : 0);
-  // from a restart file, of which a rank without particles may know nothing
-  const int mine[2] = {store.largest_list(atom->nlocal), order};
-  int largest[2] = {0, 0};
-  MPI_Allreduce(mine, largest, 2, MPI_INT, MPI_MAX, world);
-  set_maxexchange(largest[0]);
-  order = largest[1];
 }
 
 bigint FixContactStore::next_refresh(bigint step) const
@@ -108,7 +132,8 @@ bigint FixContactStore::next_refresh(bigint step) const
 void FixContactStore::pre_exchange()
 {
   store_histories(Occasion::REBUILD);
-  if (system) system->rebuild().release_pairs();
+  if (!has_pairs()) return;
+  system->rebuild().release_pairs();
   keep_positions();
   if (update->ntimestep != next_reneighbor) return;
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
@@ -125,11 +150,11 @@ void FixContactStore::min_pre_exchange()
 
 void FixContactStore::setup_pre_exchange()
 {
+  if (!has_pairs()) return;
   // a run style of LAMMPS cannot do so
   const bool run_style_is_talus = Talus::SystemRunStyle::of(update->integrate) != nullptr;
-  if (system && update->whichflag == 1 && !run_style_is_talus)
-    system->steps_in_records().report(true);
-  if (system) system->rebuild().release_pairs();
+  if (update->whichflag == 1 && !run_style_is_talus) system->steps_in_records().report(true);
+  system->rebuild().release_pairs();
   take_over_sorting();
   sort_particles();
   keep_positions();
@@ -148,7 +173,7 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (system) system->rebuild().renumber_pairs();
+  if (has_pairs()) system->rebuild().renumber_pairs();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -163,7 +188,7 @@ void FixContactStore::setup_post_neighbor()
 
 void FixContactStore::pairs_are_current()
 {
-  if (!current) store.clear();
+  if (!current) memory_of_contacts.drop_spheres();
   current = true;
 }
 
@@ -207,14 +232,15 @@ void FixContactStore::report_no_number(const RunMonitor::Finding &found) const
              "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
              "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
              "a fix)",
-             Talus::GranularSystem::of(lmp)->pair_style().name(),
-             quantities[static_cast<int>(found.details[1])], found.details[0], update->ntimestep);
+             system->pair_style().name(), quantities[static_cast<int>(found.details[1])],
+             found.details[0], update->ntimestep);
 }
 
 /* Of several ranks the particle with the lowest ID. */
 
 void FixContactStore::require_numbers() const
 {
+  if (!has_pairs()) return;
   struct {
     double tag;
     int quantity;
@@ -231,7 +257,7 @@ void FixContactStore::require_numbers() const
 
 void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 {
-  store.number(order);    // what is stored has been taken
+  memory_of_contacts.are_numbered(order);
   current = true;
 }
 
@@ -241,7 +267,7 @@ void FixContactStore::pairs_are_numbered(const Talus::ParticleOrder &order)
 void FixContactStore::post_run()
 {
   store_histories(Occasion::END_OF_RUN);
-  if (system) system->rebuild().end_contacts_of_run();
+  if (has_pairs()) system->rebuild().end_contacts_of_run();
   give_sorting_back();
 }
 
@@ -258,14 +284,16 @@ bool FixContactStore::in_periodic_box() const
 
 void FixContactStore::store_histories(Occasion occasion)
 {
-  if (!system || !current) return;
-  system->run_monitor().look(occasion == Occasion::END_OF_RUN ? RunMonitor::Moment::END
-                                                              : RunMonitor::Moment::REBUILD);
-  const bool rebuild = occasion == Occasion::REBUILD;
-  const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
-  system->rebuild().keep_history(store, {particles_may_leave, in_periodic_box()}, !rebuild);
+  if (current) {
+    system->run_monitor().look(occasion == Occasion::END_OF_RUN ? RunMonitor::Moment::END
+                                                                : RunMonitor::Moment::REBUILD);
+    const bool rebuild = occasion == Occasion::REBUILD;
+    const bool particles_may_leave = comm->nprocs > 1 || !rebuild;
+    system->rebuild().keep_history({particles_may_leave, in_periodic_box()}, !rebuild);
+    current = false;
+  }
+  memory_of_contacts.put_aside(true);
   agree_with_other_ranks();
-  current = false;
 }
 
 /* On the histories of contacts across periodic borders, and on what pack_exchange() may have to
@@ -274,9 +302,9 @@ void FixContactStore::store_histories(Occasion occasion)
 void FixContactStore::agree_with_other_ranks()
 {
   int largest = store.largest_list(atom->nlocal);
-  if (comm->nprocs > 1 && store.holds_last_lists()) {
+  if (comm->nprocs > 1) {
     const int mine = largest;
-    if (in_periodic_box())
+    if (in_periodic_box() && store.holds_last_lists())
       largest = exchange.run(store.outgoing(), mine,
                              [this](const std::vector<double> &m) { store.receive(m); });
     else
@@ -335,11 +363,15 @@ void FixContactStore::store_velocity(int i)
   std::copy_n(atom->omega[i], 3, last[i].data() + 3);
 }
 
-/* Key, position, changes and velocities, and what the store packs. */
+/* Key, position, changes and velocities, and what the store packs. Without a pair style a fix that migrates particles may
+   stand before this one: contacts with bodies are not in the lists yet then. */
 
 void FixContactStore::set_maxexchange(int largest_list)
 {
+  constexpr int of_a_body =
+      Talus::LargeBodyShape::max_contacts * (ContactLists::size_name + 3 + most_history_values);
   maxexchange = 1 + 3 + size_change + size_last + HistoryStore::size_origin + largest_list;
+  if (!has_pairs()) maxexchange += system->bodies().count() * of_a_body;
 }
 
 void FixContactStore::refresh_key(int i)

@@ -1,20 +1,21 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Internal fix of the pair styles of Talus: what has to travel with a particle.
+// Internal fix: what has to travel with a particle.
 //
-//   * its canonical key (see particles/canonical_key.h), to other ranks, to ghosts and into restart
-//     files;
-//   * the contact history whenever pairs are renumbered, and between runs (see
-//     history/history_store.h); in restart files by the names of particles;
+//   * the histories of its contacts whenever pairs are renumbered, and between runs (see
+//     history/contact_memory.h, which the system owns); in restart files by the names of particles and
+//     bodies;
+//   * with a pair style of Talus its canonical key (see particles/canonical_key.h), to other ranks, to
+//     ghosts and into restart files;
 //   * with an integrator of second order the changes of its velocities, see
 //     ParticleRecords::change, to other ranks, to ghosts and into restart files;
 //   * where fix balance shifts cutting planes, its position: LAMMPS goes to fractions of the box
 //     and back for that, which moves every particle by a rounding error. The positions are put
 //     back, so that load balancing does not change the trajectory.
 //
-// The pair style creates it (through the placeholder that keeps its place in the list of fixes) and
-// owns no copy of its data. The ID is the same in every process, because restart files find fixes
-// by ID.
+// GranularSystem makes it: for the pair style (in the place that its placeholder keeps in the list of
+// fixes), or for the first body or shape. The ID is the same in every process, because restart files
+// find fixes by ID.
 
 #ifndef LMP_FIX_CONTACT_STORE_H
 #define LMP_FIX_CONTACT_STORE_H
@@ -22,12 +23,14 @@
 #include "base/state_exchange.h"
 #include "exchange/sparse_exchange.h"
 #include "fix.h"
-#include "history/history_store.h"
+#include "history/contact_memory.h"
 #include "particles/change_record.h"
 #include "system/monitor/run_monitor.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace Talus {
@@ -39,13 +42,13 @@ namespace LAMMPS_NS {
 
 class FixContactStore : public Fix {
  public:
-  /// fix ID all CONTACT_STORE cell, where cell is the edge of the cells of the canonical order
-  /// (length).
+  /// fix ID all CONTACT_STORE
   FixContactStore(class LAMMPS *, int, char **);
   ~FixContactStore() override;
 
-  /// Called by the system right after creation; it outlives this fix.
-  void serve(Talus::GranularSystem *of) { system = of; }
+  /// Edge of the cells of the canonical order (length), unless it is known: of an earlier run, or of a restart
+  /// file.
+  void use_cells(double edge);
   /// Records that the laws of an integrator of this order need of each contact, see HistoryRows.
   void keep_histories(int records, int integration_order);
   /// To be called by the system whenever it has computed forces: its pairs hold the latest
@@ -56,7 +59,6 @@ class FixContactStore : public Fix {
 
   /// Keys of owned and ghost particles; there may be more elements than particles.
   const std::vector<std::uint64_t> &all_keys() const { return keys; }
-  Talus::HistoryStore &histories() { return store; }
   /// Of the integrator, by whose laws they are; 0: there are none, or it is not known. Kept in restart
   /// files.
   int order_of_histories() const { return order; }
@@ -122,7 +124,12 @@ class FixContactStore : public Fix {
 
  private:
   enum class Occasion { REBUILD, RESTART_FILE, END_OF_RUN };
+  /// There are pairs of a pair style of Talus.
+  bool has_pairs() const;
   void store_histories(Occasion occasion);
+  std::string name() const;
+  std::string unassignable(const char *how) const;
+  void init_for_pairs();
   void require_numbers() const;
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
@@ -137,17 +144,19 @@ class FixContactStore : public Fix {
   void put_positions_back();
   bigint next_refresh(bigint step) const;
 
-  Talus::GranularSystem *system = nullptr;
+  std::shared_ptr<Talus::GranularSystem> system;
+  Talus::ContactMemory &memory_of_contacts;
+  Talus::HistoryStore &store;    // of pairs, and with the lists of all
   bool current = false;
   int order = 0;
-  double inverse_cell;
+  int largest_read = 0;    // lists of a restart file on this rank, doubles
+  double inverse_cell = 0.0;
   std::vector<std::uint64_t> keys;
   bool with_changes = false, with_last = false;    // on all ranks alike, also without particles
   std::vector<Talus::ChangeRecord> changes;
   using Velocities = std::array<double, size_last>;
   std::vector<Velocities> last;    // of particles that others move, by the last forces
   std::vector<double> scratch;     // a list whose size is asked for
-  Talus::HistoryStore store;
   Talus::SparseExchange exchange;
 
   int lammps_sorts_every = 0;    // atom->sortfreq, while this fix sorts instead

@@ -62,8 +62,11 @@ void FixContactStore::grow_arrays(int nmax)
   store.resize(nmax);
 }
 
+/* Before an index changes its meaning contacts have to be in the lists; usually they are. */
+
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
+  memory_of_contacts.put_aside(false);
   keys[j] = keys[i];
   if (with_changes) changes[j] = changes[i];
   if (with_last) last[j] = last[i];
@@ -73,6 +76,7 @@ void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 
 void FixContactStore::set_arrays(int i)
 {
+  memory_of_contacts.put_aside(false);
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   if (with_changes) changes[i] = Talus::ChangeRecord{};
@@ -96,6 +100,7 @@ void FixContactStore::unpack_forward_comm(int n, int first, double *buf)
 
 int FixContactStore::pack_border(int n, int *list, double *buf)
 {
+  if (!comm_border) return 0;
   for (int k = 0; k < n; k++, buf += comm_border) {
     const int i = list[k];
     // a ghost may be passed on to the next rank
@@ -109,6 +114,7 @@ int FixContactStore::pack_border(int n, int *list, double *buf)
 
 int FixContactStore::unpack_border(int n, int first, double *buf)
 {
+  if (!comm_border) return 0;
   for (int k = 0; k < n; k++, buf += comm_border) {
     keys[first + k] = from_double<std::uint64_t>(buf[0]);
     store.set_ghost(
@@ -120,6 +126,7 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
 
 int FixContactStore::pack_exchange(int i, double *buf)
 {
+  memory_of_contacts.put_aside(false);
   int m = 0;
   buf[m++] = as_double(keys[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
@@ -130,6 +137,7 @@ int FixContactStore::pack_exchange(int i, double *buf)
 
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
+  memory_of_contacts.put_aside(false);
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
@@ -178,7 +186,7 @@ void FixContactStore::restore_changes(const std::vector<Talus::ChangeRecord> &sa
 
 void FixContactStore::exchange_histories(Talus::StateExchange &x)
 {
-  x(store);
+  memory_of_contacts.exchange_state(x);
   if (!x.restores()) return;
   store.resize(static_cast<int>(keys.size()));
   current = false;
@@ -189,16 +197,18 @@ void FixContactStore::exchange_histories(Talus::StateExchange &x)
 
 namespace {
 
-constexpr int restart_format = 5;
+constexpr int restart_format = 6;
 enum State { INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
 constexpr int restart_header = Talus::size_particle_head + 3;
 
-std::string command_name(LAMMPS *lmp)
-{
-  return std::string("Pair style ") + Talus::GranularSystem::of(lmp)->pair_style().name();
-}
-
 }    // namespace
+
+std::string FixContactStore::unassignable(const char *how) const
+{
+  return name() + ": particles were " + how +
+         " between read_restart and the first run, so that contact history cannot be assigned: put "
+         "'run 0' in between, behind pair_style, fix large/body and fix shape/gran";
+}
 
 void FixContactStore::write_restart(FILE *fp)
 {
@@ -215,15 +225,12 @@ void FixContactStore::write_restart(FILE *fp)
 void FixContactStore::restart(char *buf)
 {
   double state[STATE_SIZE];
-  const std::string data = Talus::restart_data_of_fix(lmp, command_name(lmp), restart_format, buf);
+  const std::string data = Talus::restart_data_of_fix(lmp, name(), restart_format, buf);
   std::memcpy(state, data.data(), sizeof state);
   order = static_cast<int>(state[ORDER]);
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
-    error->all(FLERR,
-               "{}: particles were added or deleted between read_restart and the first run, "
-               "so that contact history cannot be assigned: put 'run 0' in between",
-               command_name(lmp));
+    error->all(FLERR, unassignable("added or deleted"));
 }
 
 int FixContactStore::pack_restart(int i, double *buf)
@@ -242,18 +249,17 @@ int FixContactStore::pack_restart(int i, double *buf)
 
 void FixContactStore::unpack_restart(int i, int nth)
 {
-  const std::string command = command_name(lmp);
-  const double *const head = Talus::particle_data(lmp, command, i, nth);
+  const double *const head = Talus::particle_data(lmp, name(), i, nth);
   if (!head) return;
   const double *const data = head - Talus::size_particle_head;
   keys[i] = from_double<std::uint64_t>(head[0]);
   if (from_double<std::int64_t>(head[2]) != atom->tag[i])
-    error->one(FLERR,
-               "{}: particles were deleted or renumbered between read_restart and the first "
-               "run, so that contact history cannot be assigned: put 'run 0' in between",
-               command);
+    error->one(FLERR, unassignable("deleted or renumbered"));
   store.set_name(i, from_double<std::int64_t>(head[1]));
-  const int read = restart_header + store.unpack_list(i, data + restart_header);
+  const int size_of_list = store.unpack_list(i, data + restart_header);
+  const int read = restart_header + size_of_list;
+  largest_read = std::max(largest_read, size_of_list);
+  set_maxexchange(largest_read);    // it may migrate before init()
   if (static_cast<int>(data[0]) == read) return;
   keep_changes(true);    // init() may drop them
   changes[i] = read_change(data + read);

@@ -31,7 +31,7 @@ using namespace LAMMPS_NS;
 void FixContactStore::take_over_sorting()
 {
   if (lammps_sorts_every || atom->sortfreq <= 0 || atom->firstgroupname) return;
-  if (atom->nbonds > 0 || force->bond || !system || !system->pair_style().is_alone()) return;
+  if (atom->nbonds > 0 || force->bond || !system->pair_style().is_alone()) return;
   lammps_sorts_every = atom->sortfreq;
   atom->sortfreq = 0;    // until post_run()
 }

@@ -48,7 +48,7 @@ void FixPairHistory::post_constructor()
 
 int FixPairHistory::pack_restart(int i, double *buf)
 {
-  const auto contacts = system->store()->histories().contacts_of(i);
+  const auto contacts = system->memory().pairs().contacts_of(i);
   double *to = buf + header;
   for (const Talus::HistoryStore::Contact &one : contacts) {
     *to++ = ubuf(one.partner).d;
@@ -71,7 +71,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
   if (!from) return;
   const int contacts = static_cast<int>(from[1]);
   from += header;
-  Talus::HistoryStore &store = system->store()->histories();
+  Talus::HistoryStore &store = system->memory().pairs();
   store.set_name(i, atom->tag[i]);
   for (int n = 0; n < contacts; n++, from += stock_entry()) {
     Talus::HistoryStore::Contact one{ubuf(*from).i, {}};
@@ -89,7 +89,7 @@ void FixPairHistory::unpack_restart(int i, int nth)
 
 void FixPairHistory::take_even_values_of(int partner, tagint tag, Talus::HistoryValues &values)
 {
-  for (const Talus::HistoryStore::Contact &one : system->store()->histories().contacts_of(partner))
+  for (const Talus::HistoryStore::Contact &one : system->memory().pairs().contacts_of(partner))
     if (one.partner == tag)
       std::copy(one.history.begin() + 3, one.history.end(), values.begin() + 3);
 }
@@ -98,13 +98,12 @@ void FixPairHistory::take_even_values_of(int partner, tagint tag, Talus::History
 
 int FixPairHistory::size_restart(int i)
 {
-  return header +
-         stock_entry() * static_cast<int>(system->store()->histories().contacts_of(i).size());
+  return header + stock_entry() * static_cast<int>(system->memory().pairs().contacts_of(i).size());
 }
 
 int FixPairHistory::maxsize_restart()
 {
-  const int contacts = system->store()->histories().largest_count(atom->nlocal);
+  const int contacts = system->memory().pairs().largest_count(atom->nlocal);
   int mine = header + stock_entry() * contacts, most = 0;
   MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
   return most;

@@ -22,24 +22,16 @@
 using namespace LAMMPS_NS;
 
 namespace Talus {
-namespace {
-
-constexpr const char *kept_are_old = "Pair style {}: contacts of the last run cannot be "
-                                     "listed, for particles or bodies have been added, deleted "
-                                     "or sent to other ranks since, as by displace_atoms and "
-                                     "change_box: use 'run 0' before";
-
-}    // namespace
 
 void RunContacts::for_each(ContactData requested, const VisitContact &visit) const
 {
   const bool after_a_run = system.pair_style().is_there() && update->whichflag == 0;
-  if (after_a_run && kept) {
-    for (const ContactReport &one : kept_at_present()) visit(one);
-    return;
-  }
-  if (after_a_run) require_those_of_last_run();
-  visit_all(requested, visit);
+  std::vector<ContactReport> of_kept;
+  if (after_a_run) require_those_of_last_run(known_after_run(of_kept));
+  if (after_a_run && kept)
+    for (const ContactReport &one : of_kept) visit(one);
+  else
+    visit_all(requested, visit);
 }
 
 void RunContacts::visit_all(ContactData requested, const VisitContact &visit) const
@@ -88,31 +80,19 @@ int RunContacts::present_index(const KeptContact &one, int end) const
   return is_in_map ? atom->map(tag) : -1;
 }
 
-std::vector<ContactReport> RunContacts::kept_at_present() const
+bool RunContacts::find_kept(std::vector<ContactReport> &all) const
 {
-  std::vector<ContactReport> all;
-  bool are_there = atom->natoms == kept_of;
+  if (atom->natoms != kept_of) return false;
   for (const KeptContact &one : *kept) {
     ContactReport now = one.contact;
     now.i = present_index(one, 0);
     const bool with_particle = now.j >= 0;
     if (with_particle) now.j = present_index(one, 1);
-    are_there = are_there && now.i >= 0 && (!with_particle || now.j >= 0);
-    if (!are_there) break;
+    if (now.i < 0 || (with_particle && now.j < 0)) return false;
     if (with_particle && now.j != one.contact.j) now.j = domain->closest_image(now.i, now.j);
     all.push_back(now);
   }
-  require(are_there);
-  return all;
-}
-
-/* What one rank says alone may be lost when the others are aborted. */
-
-void RunContacts::require(bool those_of_last_run) const
-{
-  int here = those_of_last_run, everywhere = 0;
-  MPI_Allreduce(&here, &everywhere, 1, MPI_INT, MPI_MIN, world);
-  if (!everywhere) error->all(FLERR, kept_are_old, system.pair_style().name());
+  return true;
 }
 
 /* By the local indices of particles, and the order of bodies. */
@@ -142,14 +122,31 @@ void RunContacts::end_run()
 
 /* What bodies and walls know may be of particles that are gone. */
 
-void RunContacts::require_those_of_last_run() const
+RunContacts::Known RunContacts::known_after_run(std::vector<ContactReport> &of_kept) const
 {
-  if (!digest_after_run)
+  if (kept) return find_kept(of_kept) ? Known::ALL : Known::OLD;
+  if (!digest_after_run) return Known::NONE;
+  return *digest_after_run == digest_of_owners() ? Known::ALL : Known::OLD;
+}
+
+/* Ranks may know more or less, and what one says alone may be lost when the others are aborted. */
+
+void RunContacts::require_those_of_last_run(Known here) const
+{
+  const int mine = static_cast<int>(here);
+  int least = 0;
+  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, world);
+  if (least == static_cast<int>(Known::NONE))
     error->all(FLERR,
                "Pair style {}: contacts are known from the first run after the command that asks "
                "for them: use 'run 0' before",
                system.pair_style().name());
-  require(*digest_after_run == digest_of_owners());
+  if (least == static_cast<int>(Known::OLD))
+    error->all(FLERR,
+               "Pair style {}: contacts of the last run cannot be listed, for particles or bodies "
+               "have been added, deleted or sent to other ranks since, as by displace_atoms and "
+               "change_box: use 'run 0' before",
+               system.pair_style().name());
 }
 
 /* Commands that send particles to other ranks, such as write_restart, initialize LAMMPS first: the
@@ -217,7 +214,7 @@ DeepestContact RunContacts::deepest_since_rebuild() const
 std::optional<HistoryValues> RunContacts::history_of(int i, int j) const
 {
   if (update->whichflag != 0) return system.pipeline().history_of(i, j);
-  const FoundHistory found = system.store()->histories().find_of_atoms(i, j);
+  const FoundHistory found = system.memory().pairs().find_of_atoms(i, j);
   if (!found.known) return std::nullopt;
   return found.seen_by_a();
 }

@@ -66,12 +66,14 @@ class RunContacts : protected LAMMPS_NS::Pointers {
     ContactReport contact;
     std::int64_t tag[2];    ///< of its particles
   };
+  /// What a rank has of the contacts of the last run.
+  enum class Known { NONE, OLD, ALL };
   std::uint64_t digest_of_owners() const;
-  void require_those_of_last_run() const;
+  Known known_after_run(std::vector<ContactReport> &of_kept) const;
+  void require_those_of_last_run(Known here) const;
   void visit_all(ContactData requested, const VisitContact &visit) const;
   int present_index(const KeptContact &one, int end) const;
-  std::vector<ContactReport> kept_at_present() const;
-  void require(bool those_of_last_run) const;
+  bool find_kept(std::vector<ContactReport> &all) const;
 
   GranularSystem &system;
   /// After a run whose contacts are observed: digest of whose they are; and contacts that have been

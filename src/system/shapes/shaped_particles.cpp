@@ -28,13 +28,14 @@ ShapedParticles::ShapedParticles(LAMMPS *lmp, GranularSystem &owner, Fix *comman
     system(owner), fix(command), shapes(std::move(table_of_types)), pairs_here(shapes),
     exchange(world)
 {
-  histories.keep(point_history_size);
+  system.memory().add(*this);
   grow(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) begin(i);
 }
 
 ShapedParticles::~ShapedParticles()
 {
+  system.memory().remove(*this);
   memory->destroy(quat);
 }
 

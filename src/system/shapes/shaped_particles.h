@@ -7,7 +7,7 @@
 //
 //   a run begins      forget_bodies(), set_up()
 //   a step            move(), by the command; compute_contacts() and touch_body(), by the system
-//   a rebuild         keep_histories(), migration by the command, set_pairs()
+//   a rebuild         put_aside(), by ContactMemory; migration by the command; set_pairs()
 //
 //   shaped_particles.cpp        sizes, orientations, motion, questions
 //   shaped_particles_step.cpp   contacts
@@ -22,7 +22,7 @@
 #include "body/contact/body_contacts.h"
 #include "contact/contact_pipeline.h"
 #include "exchange/sparse_exchange.h"
-#include "history/contact_lists.h"
+#include "history/contact_memory.h"
 #include "particles/particle_state.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
@@ -46,7 +46,7 @@ namespace Talus {
 class GranularSystem;
 class LargeBody;
 
-class ShapedParticles : protected LAMMPS_NS::Pointers {
+class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Pointers {
  public:
   /// `command`: its data by particle are here; it moves those of its group.
   ShapedParticles(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner, LAMMPS_NS::Fix *command,
@@ -86,14 +86,17 @@ class ShapedParticles : protected LAMMPS_NS::Pointers {
   /// A script may have deleted some; histories are in the lists.
   void forget_bodies() { walls.clear(); }
   /// It is deleted.
-  void forget(const LargeBody &body) { walls.erase(&body); }
+  void forget(const LargeBody &body);
   /// "", or why particles with a shape cannot touch the surface of a body.
   std::string refusal(LargeBody &body);
   /// There is a set-up: pairs and ghosts of shapes will be known.
   void set_up() { is_set_up = true; }
-  /// Before particles are sorted or migrate, after a run, and before a restart file is written: stores the histories of
-  /// contacts with the particles.
-  void keep_histories();
+  // ContactMemory::Holder: of contact points
+  bool owns(const ContactLists::Contact &one) const override
+  {
+    return (one.feature & ContactLists::of_shape) != 0;
+  }
+  void put_aside(ContactLists &to, bool all_ranks) override;
   /// The pairs with a shape (local indices, at least one is owned).
   void set_pairs(const std::vector<std::array<int, 2>> &found);
   /// Adds the forces of their contacts where those of spheres are now, in the arrays of LAMMPS or
@@ -107,16 +110,13 @@ class ShapedParticles : protected LAMMPS_NS::Pointers {
   DeepestContact deepest_contact() const;
   DeepestInBody deepest_in(const LargeBody &body) const;
 
-  // ---- what travels with a particle: orientation and histories. Doubles.
+  // ---- what travels with a particle: the orientation. Doubles.
 
   void grow(int particles);
   void copy(int from, int to);
   void begin(int i);
   int pack(int i, double *to) const;
   int unpack(int i, const double *from);
-  int packed_size(int i) const { return size_orientation + histories.packed_size(i); }
-  /// Collective: the largest of all ranks.
-  int largest_packed() const;
   static constexpr int size_orientation = 4;
 
   /// For snapshots, between two runs.
@@ -133,7 +133,7 @@ class ShapedParticles : protected LAMMPS_NS::Pointers {
   void tell_pairs(const ContactStep &step) const;
   void list_particles(const LargeBody &body, WallPoints &points);
   static std::int64_t name_of(const LargeBody &body);
-  void announce_size();
+  void begin_step();
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix;
@@ -149,8 +149,6 @@ class ShapedParticles : protected LAMMPS_NS::Pointers {
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it
   bool is_set_up = false;
 
-  ContactLists histories;               ///< of contact points, while there are none
-  bool histories_are_current = true;    ///< they hold all histories of contacts of owned particles
   SparseExchange exchange;
 };
 

@@ -21,13 +21,11 @@ namespace Talus {
 void ShapedParticles::grow(int particles)
 {
   memory->grow(quat, particles, size_orientation, "shape/gran:quat");
-  histories.grow(particles);
 }
 
 void ShapedParticles::copy(int from, int to)
 {
   std::copy_n(quat[from], size_orientation, quat[to]);
-  histories.copy(from, to);
 }
 
 /* Radius and mass at once, so that others are put at the right distance. */
@@ -35,27 +33,19 @@ void ShapedParticles::copy(int from, int to)
 void ShapedParticles::begin(int i)
 {
   std::fill_n(quat[i], size_orientation, 0.0);
-  histories.forget(i);
   set_sizes(i, i + 1);
 }
 
 int ShapedParticles::pack(int i, double *to) const
 {
   std::copy_n(quat[i], size_orientation, to);
-  return size_orientation + histories.pack(i, to + size_orientation);
+  return size_orientation;
 }
 
 int ShapedParticles::unpack(int i, const double *from)
 {
   std::copy_n(from, size_orientation, quat[i]);
-  return size_orientation + histories.unpack(i, from + size_orientation);
-}
-
-int ShapedParticles::largest_packed() const
-{
-  int mine = histories.largest_packed(atom->nlocal), most = 0;
-  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
-  return size_orientation + most;
+  return size_orientation;
 }
 
 /* Points are kept by pair as well: in a periodic box a run goes on with those of both sides as they are. A body that
@@ -64,7 +54,6 @@ int ShapedParticles::largest_packed() const
 void ShapedParticles::exchange_state(StateExchange &x)
 {
   if (atom->nlocal) x.array(quat[0], 4L * atom->nlocal);
-  x(histories, histories_are_current);
   pairs_here.exchange_state(x);
   for (LargeBody *body : system.bodies().in_order()) {
     Wall &wall = wall_of(*body);
@@ -76,15 +65,13 @@ void ShapedParticles::exchange_state(StateExchange &x)
     if (has_points) wall.points->exchange_state(x);
   }
   if (!x.restores()) return;
-  histories.grow(atom->nmax);
   orientations_were_set = true;
-  announce_size();
 }
 
 double ShapedParticles::memory_usage() const
 {
   double bytes = static_cast<double>(size_orientation * sizeof(double)) * atom->nmax +
-                 histories.memory_usage() + pairs_here.memory_usage() + shapes.memory_usage();
+                 pairs_here.memory_usage() + shapes.memory_usage();
   for (const auto &[body, wall] : walls)
     if (wall.points) bytes += wall.points->memory_usage();
   return bytes;

@@ -18,30 +18,36 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void ShapedParticles::keep_histories()
+/* In a periodic box the rank of the first particle decides: all have to be there. */
+
+void ShapedParticles::put_aside(ContactLists &to, bool all_ranks)
 {
-  if (histories_are_current) return;
-  histories.clear();
-  if (domain->xperiodic || domain->yperiodic || domain->zperiodic) {
+  if (all_ranks && (domain->xperiodic || domain->yperiodic || domain->zperiodic)) {
     ShapedPairs::Messages messages;
-    const HistoryStore &store = system.store()->histories();
+    const HistoryStore &store = system.memory().pairs();
     pairs_here.save_in_periodic_box(
-        histories, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); },
-        messages);
-    exchange.run(messages, 0,
-                 [this](const std::vector<double> &m) { pairs_here.receive(m, histories); });
+        to, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); }, messages);
+    exchange.run(messages, 0, [&](const std::vector<double> &m) { pairs_here.receive(m, to); });
   } else {
-    pairs_here.save(histories);
+    pairs_here.save(to);
   }
   for (auto &[body, wall] : walls)
-    if (wall.points) wall.points->save(histories);
-  histories_are_current = true;
-  announce_size();
+    if (wall.points) wall.points->save(to);
 }
 
-void ShapedParticles::announce_size()
+void ShapedParticles::forget(const LargeBody &body)
 {
-  fix->maxexchange = largest_packed();
+  walls.erase(&body);
+  const std::int64_t name = name_of(body);
+  system.memory().lists_to_fill().remove_if(
+      [&](const ContactLists::Contact &one) { return owns(one) && one.partner == name; });
+}
+
+/* Histories go on from here. */
+
+void ShapedParticles::begin_step()
+{
+  if (is_at_rest()) system.memory().are_taken(*this);
 }
 
 void ShapedParticles::set_pairs(const std::vector<std::array<int, 2>> &found)
@@ -50,9 +56,13 @@ void ShapedParticles::set_pairs(const std::vector<std::array<int, 2>> &found)
   const int nall = atom->nlocal + atom->nghost;
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   pairs_here.set_pairs(view(), found, tags, system.law_table());
-  pairs_here.restore(histories);
-  for (auto &[body, wall] : walls)
-    if (wall.points) list_particles(*body, *wall.points);
+  const HistoryStore &store = system.memory().pairs();
+  pairs_here.restore(system.memory().lists(), [&](int i) { return store.origin(i).name; });
+  for (LargeBody *body : system.bodies().in_order()) {
+    Wall &wall = wall_of(*body);
+    if (!wall.points) wall.points = std::make_unique<WallPoints>(shapes, name_of(*body));
+    list_particles(*body, *wall.points);
+  }
 }
 
 void ShapedParticles::list_particles(const LargeBody &body, WallPoints &points)
@@ -61,7 +71,7 @@ void ShapedParticles::list_particles(const LargeBody &body, WallPoints &points)
   for (int i = 0; i < atom->nlocal; i++)
     if (is_shaped(atom->type[i]) && (atom->mask[i] & body.group_bits())) particles.push_back(i);
   points.set_particles(particles);
-  points.restore(histories);
+  points.restore(system.memory().lists());
 }
 
 /* Called in a step: a run without set-up knows neither the pairs nor the ghosts of shapes. */
@@ -97,9 +107,9 @@ void ShapedParticles::compute_contacts(const ContactStep &step)
 {
   require_set_up();
   send_orientations();
+  if (step.advance) begin_step();
   pairs_here.compute(view(), system.law_table(),
                      {step.dt, step.advance, comm->nthreads, step.account, step.weight_of_changes});
-  if (step.advance) histories_are_current = false;
   if (step.tally) tell_pairs(step);
 }
 
@@ -132,19 +142,14 @@ BodyLoad ShapedParticles::touch_body(LargeBody &body, const BodyStep &step)
     wall.points = std::make_unique<WallPoints>(shapes, name_of(body));
     list_particles(body, *wall.points);
   }
-  if (step.advance) histories_are_current = false;
+  if (step.advance) begin_step();
   wall.surfaces->follow();
   return wall.points->compute(*wall.surfaces, body.frame(), view(), body.law_table(), step);
 }
 
-/* Negative, for IDs of particles are positive; the same in a run that goes on from a file. */
-
 std::int64_t ShapedParticles::name_of(const LargeBody &body)
 {
-  std::uint64_t hash = 14695981039346656037U;    // FNV-1a
-  for (const char *c = body.command()->id; *c; c++)
-    hash = (hash ^ static_cast<unsigned char>(*c)) * 1099511628211U;
-  return -static_cast<std::int64_t>(hash >> 1) - 1;
+  return ContactMemory::name_of(body.command()->id);
 }
 
 std::string ShapedParticles::refusal(LargeBody &body)

@@ -89,7 +89,7 @@ void Snapshot::restore_lists() const
   if (FixContactStore *store = system.store()) {
     StateExchange with_particles(of_store);
     store->exchange_particles(with_particles);
-    store->histories().clear();
+    system.memory().drop_spheres();
   }
   if (!lists.make_again())
     error->all(FLERR, "talus_restore: neighbor lists of the snapshot cannot be made again, for "

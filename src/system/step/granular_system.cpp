@@ -44,11 +44,11 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), attached(lmp), neighbor_source(lmp), effective_masses(lmp),
-    contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp), monitors(lmp), movers(lmp),
-    energies(lmp, movers), run_contacts(lmp, *this), exchange_switch(lmp), gravity(lmp, *this),
-    record_steps(lmp, *this, movers), lists(lmp), set_up_with(lmp, *this),
-    loads_of_others(lmp, *this),
+    Pointers(lmp), attached(lmp), contact_memory(comm->me), neighbor_source(lmp),
+    effective_masses(lmp), contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp),
+    monitors(lmp), movers(lmp), energies(lmp, movers), run_contacts(lmp, *this),
+    exchange_switch(lmp), gravity(lmp, *this), record_steps(lmp, *this, movers), lists(lmp),
+    set_up_with(lmp, *this), loads_of_others(lmp, *this),
     step_of_run(lmp, *this, {contact_pipeline, movers, run_contacts, time_step}),
     rebuild_of_lists(lmp, *this, {contact_pipeline, neighbor_source, run_contacts}),
     large_bodies(lmp, *this)
@@ -75,7 +75,8 @@ bool GranularSystem::attach(Pair *pair, const AttachedPair::Traits &traits)
         }}});
   monitors.add(pair, monitor.checks([this] { return run_contacts.deepest_since_rebuild(); }));
   monitors.add(pair, {time_step.check(pair_coeffs)});
-  modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  if (!contact_store) modify->add_fix(std::string(placeholder_id) + " all DUMMY");
+  store_was_there = contact_store != nullptr;
   make_run_style_the_default(lmp);
   return true;
 }
@@ -87,13 +88,14 @@ void GranularSystem::detach(const Pair *pair)
   if (!pair || pair != attached.get()) return;
   monitors.remove(pair);
   attached.set(nullptr);
-  contact_store = nullptr;
+  contact_memory.drop_spheres();
   pair_coeffs = PairCoeffs{};
   prepared.reset();
   announced.clear();
   energies.clear();
   run_contacts.forget();
   contact_pipeline.emplace();
+  if (contact_memory.has_others()) return;
   for (const auto *internal : {store_id, placeholder_id})
     if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
 }
@@ -106,28 +108,32 @@ void GranularSystem::init_pair_style()
   effective_masses.find_fixes();
   contact_range.find(effective_masses.frozen_groups(), shaped.get());
   contact_range.require_sizes(attached.name());
+  require_store(std::string("Pair style ") + attached.name());
   create_store();
+  // well below the smallest particle of usual scenes: tags decide only where keys are equal
+  const double largest = contact_range.radii().largest();
+  contact_store->use_cells(largest > 0.0 ? 0.125 * largest : 1.0);
   monitors.start();
   time_step.start();
   prepared.reset();    // init_one() will mix what is not set
 }
 
+void GranularSystem::require_store(const std::string &command) const
+{
+  if (!contact_store && !modify->get_fix_by_id(placeholder_id))
+    error->all(FLERR, "{}: its internal fix {} has been deleted: remove the unfix command", command,
+               store_was_there ? store_id : placeholder_id);
+}
+
 void GranularSystem::create_store()
 {
-  const char *expected = contact_store ? store_id : placeholder_id;
-  if (!modify->get_fix_by_id(expected))
-    error->all(FLERR,
-               "Pair style {}: its internal fix {} has been deleted: remove the unfix command",
-               attached.name(), expected);
   if (contact_store) return;
-  // well below the smallest particle of usual scenes: tags decide only where keys are equal
-  const double largest = contact_range.radii().largest();
-  const double cell = largest > 0.0 ? 0.125 * largest : 1.0;
-  const auto command = fmt::format("{} all CONTACT_STORE {:.17g}", store_id, cell);
-  contact_store = dynamic_cast<FixContactStore *>(modify->replace_fix(placeholder_id, command, 1));
-  if (!contact_store)
-    error->all(FLERR, "Pair style {}: cannot create fix {}", attached.name(), store_id);
-  contact_store->serve(this);
+  const std::string command = std::string(store_id) + " all CONTACT_STORE";
+  Fix *const made = modify->get_fix_by_id(placeholder_id)
+                        ? modify->replace_fix(placeholder_id, command, 1)
+                        : modify->add_fix(command);
+  contact_store = dynamic_cast<FixContactStore *>(made);
+  if (!contact_store) error->all(FLERR, "Talus cannot create fix {}", store_id);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -160,7 +166,7 @@ void GranularSystem::exchange_state(StateExchange &x)
   if (x.restores()) {
     monitors.forget_step();
     if (contact_store && contact_pipeline->has_pairs())
-      contact_pipeline->take_back_histories(contact_store->histories());
+      contact_pipeline->take_back_histories(contact_memory.pairs());
   }
   run_contacts.exchange_state(x);
 }

@@ -12,6 +12,7 @@
 #define TALUS_SYSTEM_STEP_GRANULAR_SYSTEM_H
 
 #include "contact/contact_pipeline.h"
+#include "history/contact_memory.h"
 #include "material/pair_coeffs.h"
 #include "particles/particle_state.h"
 #include "system/bodies/large_bodies.h"
@@ -78,8 +79,16 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const LAMMPS_NS::NeighborSource &neighbors() const { return neighbor_source; }
   /// Contacts between particles as they are computed.
   const ContactPipeline &pipeline() const { return *contact_pipeline; }
-  /// What particles carry along of their contacts; nullptr before the first init_pair_style().
+  /// What contacts remember.
+  ContactMemory &memory() { return contact_memory; }
+  /// The fix that moves it with the particles; nullptr before create_store().
   LAMMPS_NS::FixContactStore *store() const { return contact_store; }
+  /// By those who have contacts to remember, when there is a box: not in constructors of fixes, nor in their init().
+  void create_store();
+  /// An error where it should be there. `command`: who asks, for messages.
+  void require_store(const std::string &command) const;
+  /// By the store when it goes.
+  void store_is_gone() { contact_store = nullptr, store_was_there = true; }
   LargeBodies &bodies() { return large_bodies; }
   const Integrators &integrators() const { return movers; }
   Weights &weights() { return gravity; }
@@ -125,12 +134,13 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
 
  private:
   explicit GranularSystem(LAMMPS_NS::LAMMPS *lmp);
-  void create_store();
   void prepare_laws();
 
   // the pair style
   AttachedPair attached;
+  ContactMemory contact_memory;    // goes after those who have something in it
   LAMMPS_NS::FixContactStore *contact_store = nullptr;
+  bool store_was_there = false;
   Talus::PairCoeffs pair_coeffs;
   std::optional<int> prepared;    // revision of pair_coeffs that the pipeline has
   std::string announced;          // last description of the laws in the log

@@ -23,11 +23,10 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-void Rebuild::keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay)
+void Rebuild::keep_history(HistoryStore::Scope scope, bool pairs_stay)
 {
   if (!pairs_stay) contacts().release_records();
-  contacts().keep_history(to, scope, pairs_stay);
-  if (ShapedParticles *shapes = system.shapes()) shapes->keep_histories();
+  contacts().keep_history(system.memory().pairs(), scope, pairs_stay);
 }
 
 /* Pairs and states stay until the next set-up. */
@@ -77,7 +76,7 @@ void Rebuild::make_pairs()
     contacts().set_lists(given_pairs, atom->type);
   else
     find_pairs();
-  contacts().start_pairs(system.store()->histories());
+  contacts().start_pairs(system.memory().pairs());
   change_order_of_histories();
 }
 

@@ -37,9 +37,9 @@ class Rebuild : protected LAMMPS_NS::Pointers {
   {
   }
 
-  /// Puts histories aside. Unless the pairs stay they are gone then until renumber_pairs(), and
+  /// Puts histories of pairs aside. Unless the pairs stay they are gone then until renumber_pairs(), and
   /// memory is free for others.
-  void keep_history(HistoryStore &to, HistoryStore::Scope scope, bool pairs_stay);
+  void keep_history(HistoryStore::Scope scope, bool pairs_stay);
   void release_pairs() { contacts().release(); }
   /// New neighbor lists are due: finds the pairs, and their histories.
   void renumber_pairs();
