@@ -78,11 +78,11 @@ struct Canonical {
   }
   void start()
   {
-    pipeline.prepare_to_move([](int) { return 0; }, {});
+    pipeline.motion().prepare([](int) { return 0; }, {});
   }
   void step()
   {
-    pipeline.advance(at_rest);
+    pipeline.motion().advance(at_rest);
     run(in_records());
   }
 };

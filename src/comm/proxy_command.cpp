@@ -6,6 +6,8 @@
 #include "system/monitor/exchange_report.h"
 #include "system/step/granular_system.h"
 
+#include "contact/contact_survey.h"
+
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -55,7 +57,7 @@ void ProxyCommand::info()
     if (comm->me == 0) utils::logmesg(lmp, "comm_proxy: off, exchange of LAMMPS\n");
     return;
   }
-  const std::string text =
-      describe_exchange(*proxy, GranularSystem::of(lmp)->pipeline().early_share(), world);
+  const std::string text = describe_exchange(
+      *proxy, ContactSurvey(GranularSystem::of(lmp)->pipeline()).early_share(), world);
   if (comm->me == 0) utils::logmesg(lmp, text);
 }

@@ -28,7 +28,7 @@ void ContactPipeline::set_work(int num_threads, bool in_phases)
 
 void ContactPipeline::set_pairs(const Particles &given, const NeighborView &neighbors)
 {
-  in_records = prepared = move_pending = false;
+  moving.leave();
   kept_lists.reset();
   threads = next_threads;
   order.arrange(given.owned, given.key, given.tag, threads);
@@ -59,7 +59,7 @@ void ContactPipeline::make_chunks()
 {
   chunks.resize(work.num_chunks());
   claims = std::vector<Claim>(work.num_ranges());
-  speeds.assign(work.num_ranges(), {});
+  moving.make_room(work.num_ranges());
 }
 
 /* Lists of pairs refer to the order and the work of this object, in any copy. */
@@ -83,7 +83,7 @@ std::shared_ptr<const ContactPipeline::Lists> ContactPipeline::lists()
 
 void ContactPipeline::set_lists(const std::shared_ptr<const Lists> &given, const int *type)
 {
-  in_records = prepared = move_pending = false;
+  moving.leave();
   kept_lists = given;
   threads = given->threads;
   order = given->order;
@@ -140,7 +140,7 @@ void ContactPipeline::start_pairs(HistoryStore &histories)
 
 void ContactPipeline::take_back_histories(HistoryStore &from)
 {
-  leave_records();
+  moving.leave();
   from.open_unmoved(order);
   for_chunks([&](int c) { chunks[c].start_pairs(scene, from); });
   from.close();
@@ -171,13 +171,13 @@ void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,
-                   shared_owned.size() + shared_ghosts.size(), with_changes);
+                   shared_owned.size() + shared_ghosts.size(), moving.keeps_changes());
   deferred.make_room(particles);
 }
 
 void ContactPipeline::release_records()
 {
-  leave_records();
+  moving.leave();
   if (memory_usage() < release_threshold) return;
   particles.release_sums();
   deferred.release();
@@ -234,7 +234,7 @@ void ContactPipeline::start_step(const ContactStep &step)
 
 void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &step)
 {
-  in_records = !step.deliver;
+  moving.end_step(!step.deliver);
   for (const ContactChunk &chunk : chunks) {
     if (!step.account) break;
     step.account->sum += chunk.work();
@@ -250,7 +250,7 @@ void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &st
     });
   if (!step.deliver || step.read) return;
   in_ranges(order.owned, [&](int begin, int end) {
-    for (int a = begin; a < end; a++) write_state(a, arrays);
+    for (int a = begin; a < end; a++) moving.write_state(a, arrays);
   });
 }
 
@@ -272,8 +272,8 @@ void ContactPipeline::load_shared(const ParticleView &arrays, const ContactStep 
   const SlotRange range = work.range_of_thread(thread);
   if (step.read)
     particles.read(order, arrays, of_thread(shared_owned, thread));
-  else if (move_pending)
-    speeds[thread].join(particles.advance(move, role, of_thread(moved_first, thread)));
+  else if (moving.is_moving())
+    moving.move_shared(thread);
   else    // they have not been moved: only the sums are those of the last step
     particles.clear(range.begin, range.end);
 }
@@ -300,17 +300,13 @@ void ContactPipeline::copy_states(const std::vector<int> &slots, int first_copy,
 void ContactPipeline::load(const ParticleView &arrays, const ContactStep &step, int range,
                            int begin, int end)
 {
-  const auto flags = [](const std::vector<unsigned char> &v) {
-    return v.empty() ? nullptr : v.data();
-  };
   SlotChoice slots{begin, end};
   slots.next_end = work.range(range).end;
   if (step.read) {
-    slots.marked = flags(is_loaded_before);
+    slots.marked = is_loaded_before.empty() ? nullptr : is_loaded_before.data();
     particles.read(order, arrays, slots);
-  } else if (move_pending) {
-    slots.marked = flags(is_moved_before);
-    speeds[range].join(particles.advance(move, role, slots));
+  } else if (moving.is_moving()) {
+    moving.move_on_the_way(range, slots);
   }
 }
 
@@ -358,7 +354,7 @@ void ContactPipeline::run_phase(const ParticleView &arrays, const ContactStep &s
     if (step.add_other_forces) (*step.add_other_forces)(t, range.begin, range.end);
   };
   in_parallel(threads, step.tally ? 1 : threads, prepare, compute_chunks, finish);
-  move_pending = false;    // all have been moved on the way
+  moving.all_are_moved();    // on the way
 }
 
 /* ---------------------------------------------------------------------- */
@@ -369,24 +365,20 @@ void ContactPipeline::mark(const std::vector<int> &slots, std::vector<unsigned c
   for (const int s : slots) marks[s] = 1;
 }
 
-/* ---------------------------------------------------------------------- */
-
-ContactPipeline::Place ContactPipeline::place_of(int i, int j) const
+void ContactPipeline::set_weightless(const std::function<bool(int)> &is_weightless)
 {
-  if (!scene.with_history || std::max(i, j) >= num_particles()) return {nullptr, -1};
-  const int a = order.slot_of_atom[i], b = order.slot_of_atom[j];
-  const ContactChunk &chunk = chunks[work.chunk_with_pair(std::min(a, b), std::max(a, b))];
-  const std::int64_t pair = chunk.pairs.find(a, b);
-  return {pair < 0 ? nullptr : &chunk, pair};
+  std::vector<unsigned char> marks(is_weightless ? order.size() : 0);
+  in_ranges(static_cast<std::int64_t>(marks.size()), [&](int begin, int end) {
+    for (int s = begin; s < end; s++) marks[s] = is_weightless(order.atom_of_slot[s]);
+  });
+  particles.set_weightless(std::move(marks));
 }
 
-std::optional<HistoryValues> ContactPipeline::history_of(int i, int j) const
+void ContactPipeline::set_own_masses(const double *of_atom)
 {
-  const Place place = place_of(i, j);
-  if (!place.chunk || !place.chunk->history.touches(place.pair)) return std::nullopt;
-  const bool in_order = order.slot_of_atom[i] < order.slot_of_atom[j];
-  const HistoryValues stored = place.chunk->history.values(place.pair);
-  return in_order ? stored : mirrored(stored);
+  std::vector<double> own_mass(of_atom ? order.size() : 0);
+  for (std::size_t s = 0; s < own_mass.size(); s++) own_mass[s] = of_atom[order.atom_of_slot[s]];
+  particles.set_own_masses(std::move(own_mass));
 }
 
 double ContactPipeline::memory_usage() const

@@ -5,8 +5,9 @@
 //
 //   at a rebuild   keep_history() (if the old pairs are still current), release(),
 //                  set_pairs(), start_pairs()
-//   every step     compute(), or compute_early(), compute_late() around the arrival of the ghosts'
-//   state
+//   every step     motion().advance(), if particles live in the records; compute(), or
+//                  compute_early(), compute_late() around the arrival of the ghosts' state
+//   questions      ContactSurvey
 //
 // The work is divided into chunks (see WorkPartition) for the threads and for the two phases; how
 // many there are changes no bit of the result.
@@ -17,6 +18,7 @@
 #include "base/in_parallel.h"
 #include "base/state_exchange.h"
 #include "contact/contact_chunk.h"
+#include "contact/particle_motion.h"
 #include "neighbors/neighbor_view.h"
 #include "neighbors/work_partition.h"
 #include "particles/particle_order.h"
@@ -25,7 +27,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace Talus {
@@ -74,12 +75,9 @@ class ContactPipeline {
   void release();
   /// Histories are those of `from` again, which were put aside with particles in these slots, and stay there.
   void take_back_histories(HistoryStore &from);
-  /// For snapshots: the contacts of the last compute() with the states that it found, for the questions below.
+  /// For snapshots: the contacts of the last compute() with the states that it found, for ContactSurvey.
   /// When they are restored take_back_histories() comes before.
   void exchange_contacts(StateExchange &x);
-  /// Marks the records as not current, and does nothing else: the state must be in the arrays of
-  /// LAMMPS, and prepare_to_move() has to be called again.
-  void leave_records() { in_records = prepared = move_pending = false; }
   /// Blocks of memory above this size are released (bytes).
   void set_release_threshold(double bytes) { release_threshold = bytes; }
 
@@ -101,7 +99,7 @@ class ContactPipeline {
   /// them: until a compute() that delivers, the arrays of LAMMPS need not be up to date. Code that
   /// adds other forces does so in records(). With `read` false, owned particles are taken as they
   /// are in the records, and their state is written to the arrays of LAMMPS in a compute() that
-  /// delivers: allowed if the last compute() did not deliver, and usual after advance(); and with
+  /// delivers: allowed if the last compute() did not deliver, and usual after motion().advance(); and with
   /// `read_ghosts` false as well, ghosts too, if their state has been brought there.
   void compute(const ParticleView &arrays, const ContactStep &step);
   /// The same in two phases, if set_work() said so: first the pairs of owned particles, when ghosts
@@ -109,68 +107,11 @@ class ContactPipeline {
   void compute_early(const ParticleView &arrays, const ContactStep &step);
   void compute_late(const ParticleView &arrays, const ContactStep &step);
 
-  /// Particles live in the records since the last compute().
-  bool holds_state() const { return in_records; }
+  /// Of the particles while they live in the records.
+  ParticleMotion &motion() { return moving; }
+  const ParticleMotion &motion() const { return moving; }
   ParticleRecords &records() { return particles; }
   const ParticleOrder &particle_order() const { return order; }
-
-  /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by local index: the number of the step that moves a particle, -1 if none does (asked by all
-  /// threads); and whose states are sent away before forces are computed.
-  void prepare_to_move(const std::function<int(int)> &mover, const std::vector<int> &sent);
-  bool can_move() const { return prepared; }
-  /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the
-  /// way through the next compute().
-  void advance(const std::vector<RecordStep> &steps);
-  /// It has not been completed.
-  bool is_moving() const { return move_pending; }
-  /// Moves those that are still to be moved now, in a pass of its own.
-  void complete_move();
-  /// Of the last move, after compute() or complete_move(): the largest speed of an owned particle
-  /// after it, and whether all of them were moved by it.
-  double fastest() const;
-  bool moves_all_owned() const { return all_owned_move; }
-  /// Ends holds_state(): completes an advance() and writes the state of all owned particles to the
-  /// arrays of LAMMPS: positions, velocities, angular velocities and the changes of velocities that
-  /// are kept. With forces those and torques are set to the ones in the records.
-  void return_state(const ParticleView &arrays, bool with_forces);
-  /// Copies the state of some owned particles to the arrays, for code that only reads it.
-  void copy_states_to_arrays(const std::vector<int> &atoms, const ParticleView &arrays) const;
-  /// The same of all of them, and of proxies if their state is in the records; sets forces and
-  /// torques of owned particles there to those in the records.
-  void show(const ParticleView &arrays, bool proxies, bool forces) const;
-  /// Sets forces and torques in the records to those in the arrays.
-  void take_forces(const ParticleView &arrays);
-  /// Whether changes of velocities are kept from now on, see ParticleRecords::keep_changes().
-  void keep_changes(bool yes);
-  bool keeps_changes() const { return with_changes; }
-
-  /// History of the contact of local indices i and j, with the signs of i; none if the pair does
-  /// not touch, or in a scene without history.
-  std::optional<HistoryValues> history_of(int i, int j) const;
-
-  /// Touching and candidate pairs of the last compute(); pairs that another rank computes as well
-  /// count half, so that the sums over all ranks are the numbers of pairs.
-  double count_contacts() const;
-  double count_candidates() const;
-  /// Share of the candidate pairs that compute_early() computes; 0 in one phase.
-  double early_share() const;
-
-  /// visit(contact) for each contact of the last compute(), with the state that it found and the
-  /// history after it, while the pairs are there.
-  using VisitContact = std::function<void(const ContactReport &)>;
-  void for_each_contact(ContactData requested, const VisitContact &visit) const;
-  /// Of the contacts of the last compute() the one with the largest overlap over the smaller
-  /// radius.
-  DeepestContact deepest_contact() const;
-  /// The same of all that have been computed since start_pairs(), if it is deeper than
-  /// DeepestContact::watched; otherwise that.
-  DeepestContact deepest_since_rebuild() const;
-  /// Smallest sqrt(m_eff/k) with the tangent stiffness k among the same contacts; 0 without
-  /// contacts.
-  double smallest_contact_period() const;
-  /// Largest relative speed of the centers of candidate pairs.
-  double largest_relative_speed() const;
 
   /// Pairs are known: not after release() or keep_history().
   bool has_pairs() const { return pairs_known; }
@@ -184,22 +125,13 @@ class ContactPipeline {
   double memory_usage() const;
 
  private:
-  struct Place {
-    const ContactChunk *chunk;    ///< nullptr if the pair is unknown
-    std::int64_t pair;
-  };
-  Place place_of(int i, int j) const;
-  ContactReport report_of(const ContactChunk &chunk, std::int64_t pair,
-                          ContactData requested) const;
-  double squared_distance(int slot_a, int slot_b) const;
-  double overlap_of(int slot_a, int slot_b) const;
+  friend class ContactSurvey;
+  friend class ParticleMotion;
   void find_types(const int *type);
   void make_chunks();
   void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &arrays, const ContactStep &step);
-  void write_state(int atom, const ParticleView &arrays) const;
-  void write_forces(int atom, const ParticleView &arrays) const;
   void find_shared();
   void run_phase(const ParticleView &arrays, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);
@@ -220,7 +152,6 @@ class ContactPipeline {
   }
   /// Those of a list in ascending order that are in the range of a thread.
   SlotChoice of_thread(const std::vector<int> &slots, int thread) const;
-  template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   ContactScene scene;
   std::shared_ptr<const Lists> kept_lists;
@@ -245,21 +176,7 @@ class ContactPipeline {
   std::vector<int> shared_owned, shared_ghosts;    ///< slots that other ranges than theirs read
   std::vector<unsigned char> is_loaded_before;     ///< by slot: not on the way; empty if none is
 
-  // particles in the records
-  bool in_records = false, prepared = false, move_pending = false;
-  std::vector<RecordStep> move;
-  bool with_changes = false;
-  std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
-  std::vector<int> moved_at_once;                ///< slots that are sent
-  std::vector<int> moved_first;                  ///< others that several ranges read
-  std::vector<unsigned char> is_moved_before;    ///< by slot: one of these; empty if none is
-  bool all_owned_move = false;
-  struct alignas(64) Speed {    // in a cache line of its own: written every few hundred particles
-    double largest = 0.0;
-
-    void join(double speed) { largest = std::max(largest, speed); }
-  };
-  std::vector<Speed> speeds;    ///< by range
+  ParticleMotion moving{*this};
 };
 
 struct ContactPipeline::Lists {

@@ -85,7 +85,7 @@ void RebuildCheck::ask(GranularSystem *in_records)
 MotionForecast RebuildCheck::forecast(GranularSystem &in_records) const
 {
   MotionForecast here{in_records.step().moved_at_most(),
-                      update->dt * in_records.pipeline().fastest()};
+                      update->dt * in_records.pipeline().motion().fastest()};
   if (neighbor->every > 1 || here.may_leave(limit(), 1))
     here.moved = in_records.step().moved_since_rebuild();
   return here;

@@ -176,7 +176,7 @@ void VerletProxy::step()
   if (!must_rebuild)
     system->step().update_proxies(overlaps);    // LAMMPS' forward_comm() is complete at its end
   // asked later where particles move on the way through the computation of forces
-  const bool in_records = system->pipeline().holds_state();
+  const bool in_records = system->pipeline().motion().holds_state();
   if (!in_records) lists->ask(nullptr);
   if (comm->nprocs > 1 || atom->nghost > 0) timer->stamp(Timer::COMM);
 

@@ -51,7 +51,8 @@ void expect_same_contacts(const TestRank &rank, const BruteForce &slow_reference
                           bool with_history)
 {
   ASSERT_EQ(rank.tally.size(), slow_reference.contacts.size());
-  ASSERT_EQ(rank.pipeline.count_contacts(), static_cast<double>(slow_reference.contacts.size()));
+  ASSERT_EQ(ContactSurvey(rank.pipeline).count_contacts(),
+            static_cast<double>(slow_reference.contacts.size()));
   std::set<std::pair<int, int>> seen;
   for (const TalliedContact &r : rank.tally) {
     const int i = rank.particle[r.i], j = rank.particle[r.j];
@@ -86,7 +87,7 @@ TEST_P(Pipeline, AgreesWithBruteForce)
     TestRank rank(laws);
     BruteForce reference;
     rank.rebuild(p, everyone(p), candidates(p, 1.0, weighted), {}, random);
-    EXPECT_EQ(rank.pipeline.count_candidates(),
+    EXPECT_EQ(ContactSurvey(rank.pipeline).count_candidates(),
               static_cast<double>(candidates(p, 1.0, weighted).size()));
     for (int step = 0; step < 12; step++) {
       const bool advance = step != 0 && step != 6;    // as in the set-up of a run
@@ -107,11 +108,11 @@ TEST_P(Pipeline, AgreesWithBruteForce)
 TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
 {
   const auto survey = [](const ContactPipeline &contacts) {
-    const DeepestContact deepest = contacts.deepest_contact();
-    return std::vector<double>{contacts.count_contacts(),
-                               contacts.count_candidates(),
-                               contacts.smallest_contact_period(),
-                               contacts.largest_relative_speed(),
+    const DeepestContact deepest = ContactSurvey(contacts).deepest_contact();
+    return std::vector<double>{ContactSurvey(contacts).count_contacts(),
+                               ContactSurvey(contacts).count_candidates(),
+                               ContactSurvey(contacts).smallest_contact_period(),
+                               ContactSurvey(contacts).largest_relative_speed(),
                                deepest.overlap_ratio,
                                static_cast<double>(deepest.i),
                                static_cast<double>(deepest.j)};
@@ -128,7 +129,7 @@ TEST_P(Pipeline, AnswersAfterARunAreThoseOfItsLastStep)
     for (int n = 0; n < 5; n++) EXPECT_GT(at_end[n], 0.0) << n;
     EXPECT_NE(at_end, before);
     HistoryStore aside;
-    rank.pipeline.leave_records();
+    rank.pipeline.motion().leave();
     rank.pipeline.keep_history(aside, {true, false}, true);
     EXPECT_TRUE(rank.pipeline.has_pairs());
     EXPECT_EQ(survey(rank.pipeline), at_end);
@@ -170,8 +171,8 @@ TEST_P(Pipeline, EmptyRank)
     rank.rebuild(p, {}, {}, luggage, random);
     rank.compute(p, dt, true);
     EXPECT_TRUE(rank.tally.empty());
-    EXPECT_EQ(rank.pipeline.count_contacts(), 0.0);
-    EXPECT_EQ(rank.pipeline.count_candidates(), 0.0);
+    EXPECT_EQ(ContactSurvey(rank.pipeline).count_contacts(), 0.0);
+    EXPECT_EQ(ContactSurvey(rank.pipeline).count_candidates(), 0.0);
   }
 }
 
@@ -187,7 +188,8 @@ TEST_P(Pipeline, CoincidentCentersGiveNoForce)
     rank.compute(p, dt, true);
     reference.compute(p, GetParam().laws, dt, true, false);
     ASSERT_NO_FATAL_FAILURE(expect_same_sums(rank, reference, p));
-    EXPECT_EQ(rank.pipeline.count_contacts(), static_cast<double>(reference.contacts.size()));
+    EXPECT_EQ(ContactSurvey(rank.pipeline).count_contacts(),
+              static_cast<double>(reference.contacts.size()));
   }
 }
 
@@ -221,13 +223,15 @@ TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
     divided.divide(threads, true);
     for (TestRank *rank : {&simple, &divided})
       rank->rebuild(p, mine, candidates(p, 1.0, true), {}, random);
-    EXPECT_EQ(divided.pipeline.count_candidates(), simple.pipeline.count_candidates());
-    const double share = divided.pipeline.early_share();
+    EXPECT_EQ(ContactSurvey(divided.pipeline).count_candidates(),
+              ContactSurvey(simple.pipeline).count_candidates());
+    const double share = ContactSurvey(divided.pipeline).early_share();
     EXPECT_TRUE(share > 0.2 && share < 1.0) << share;
     for (int step = 0; step < 3; step++) {
       for (TestRank *rank : {&simple, &divided}) rank->compute(p, dt, true);
       ASSERT_GT(simple.tally.size(), 200U);
-      EXPECT_EQ(divided.pipeline.count_contacts(), simple.pipeline.count_contacts());
+      EXPECT_EQ(ContactSurvey(divided.pipeline).count_contacts(),
+                ContactSurvey(simple.pipeline).count_contacts());
       EXPECT_EQ(partners_in_order(divided), partners_in_order(simple));
       EXPECT_EQ(divided.force, simple.force);
       EXPECT_EQ(divided.torque, simple.torque);

@@ -70,7 +70,7 @@ class Machine {
     contacts = 0.0;
     for (TestRank &rank : ranks) {
       rank.compute(p, dt, advance);
-      contacts += rank.pipeline.count_contacts();
+      contacts += ContactSurvey(rank.pipeline).count_contacts();
       for (int a = 0; a < static_cast<int>(rank.particle.size()); a++) {
         const int i = rank.particle[a];
         if (a < rank.owned) {

@@ -130,8 +130,9 @@ class RecordSteps : public testing::TestWithParam<Division> {
 
   void advance()
   {
-    if (!fast.can_move()) fast.prepare_to_move([this](int i) { return moves(i) ? 0 : -1; }, sent);
-    fast.advance({euler});
+    if (!fast.motion().is_prepared())
+      fast.motion().prepare([this](int i) { return moves(i) ? 0 : -1; }, sent);
+    fast.motion().advance({euler});
   }
 
   /// A step after which particles stay in the records, and their move; how such steps are made.
@@ -165,14 +166,14 @@ TEST_P(RecordSteps, HaveTheBitsOfStepsThroughTheHost)
     reference.clear_forces();
     compute(slow, reference, {euler.dt, n > 0});
 
-    const bool held = fast.holds_state();
+    const bool held = fast.motion().holds_state();
     ASSERT_EQ(held, n > 0 && !in(n - 1));
     if (held)
       advance();
     else if (n > 0)
       host.step([this](int i) { return moves(i); });
     if (held) {    // what is sent is there before forces are computed
-      fast.copy_states_to_arrays(sent, host.view());
+      fast.motion().copy_states(sent, host.view());
       for (const int i : sent)
         for (int k = 3 * i; k < 3 * i + 3; k++) ASSERT_EQ(host.x[k], reference.x[k]);
     }
@@ -202,8 +203,8 @@ TEST_P(RecordSteps, ReturnTheStateInTheMiddleOfAStepAndAtItsEnd)
       advance();
       reference.step([this](int i) { return moves(i); });
     }
-    fast.return_state(host.view(), !in_the_middle);
-    EXPECT_FALSE(fast.holds_state());
+    fast.motion().return_state(host.view(), !in_the_middle);
+    EXPECT_FALSE(fast.motion().holds_state());
     EXPECT_TRUE(same_state(host, reference));
     if (!in_the_middle) {
       EXPECT_TRUE(same_rows(host.f, reference.f));
@@ -238,11 +239,11 @@ TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
     compute(slow, reference, {euler.dt, n > 0});
     end_step(reference);
 
-    const bool held = fast.holds_state();
+    const bool held = fast.motion().holds_state();
     if (held) {
-      if (!fast.can_move()) fast.prepare_to_move(mover, sent);
-      fast.advance(steps);
-      EXPECT_TRUE(fast.is_moving());
+      if (!fast.motion().is_prepared()) fast.motion().prepare(mover, sent);
+      fast.motion().advance(steps);
+      EXPECT_TRUE(fast.motion().is_moving());
     } else if (n > 0) {
       for (int i = 0; i < host.n; i++)
         if (mover(i) >= 0) host.kick(i, steps[mover(i)], true);
@@ -292,7 +293,7 @@ TEST_P(RecordStepsInTwoPhases, ReturnTheStateBetweenThem)
   reference.step([this](int i) { return moves(i); });
   keep.read = false;
   fast.compute_early(host.view(), keep);    // then an error comes
-  fast.return_state(host.view(), false);
+  fast.motion().return_state(host.view(), false);
   EXPECT_TRUE(same_state(host, reference));
 }
 
@@ -310,8 +311,8 @@ TEST_P(RecordSteps, TellTheLargestSpeed)
     all_move = all_move && moves(i);
   }
   EXPECT_GT(expected, 0.0);
-  EXPECT_EQ(fast.fastest(), expected);
-  EXPECT_EQ(fast.moves_all_owned(), all_move);
+  EXPECT_EQ(fast.motion().fastest(), expected);
+  EXPECT_EQ(fast.motion().moves_all_owned(), all_move);
 }
 
 TEST_P(RecordSteps, TakeTorquesOfOthers)
@@ -333,7 +334,7 @@ TEST_P(RecordSteps, TakeTorquesOfOthers)
   }
   advance();
   reference.step([this](int i) { return moves(i); });
-  fast.return_state(host.view(), false);
+  fast.motion().return_state(host.view(), false);
   EXPECT_TRUE(same_state(host, reference));
 }
 
@@ -359,7 +360,7 @@ TEST_P(RecordSteps, AddMoreForcesToEverySlotOnceWhenItsContactsAreDone)
     for (int d = 0; d < 3; d++) ASSERT_EQ(sums[i].c[d], reference.f[3 * i + d]) << i;
     reference.f[3 * i + 2] += 0.5;
   }
-  fast.return_state(host.view(), true);
+  fast.motion().return_state(host.view(), true);
   EXPECT_TRUE(same_rows(host.f, reference.f) && same_rows(host.torque, reference.torque));
 }
 

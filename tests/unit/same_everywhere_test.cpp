@@ -58,7 +58,7 @@ Digest of_pairs(const LawTable &laws)
       p.x[i] = slow::axpy(1e-3, p.v[i], p.x[i]);
     }
   }
-  EXPECT_GT(rank.pipeline.count_contacts(), 300.0);
+  EXPECT_GT(ContactSurvey(rank.pipeline).count_contacts(), 300.0);
   return digest;
 }
 

@@ -6,7 +6,7 @@
 #ifndef TALUS_TEST_TEST_RANK_H
 #define TALUS_TEST_TEST_RANK_H
 
-#include "contact/contact_pipeline.h"
+#include "contact/contact_survey.h"
 #include "neighbor_lists.h"
 #include "packing.h"
 
@@ -144,7 +144,9 @@ class TestRank {
       return static_cast<int>(std::find(particle.begin(), particle.end(), wanted) -
                               particle.begin());
     };
-    const auto h = pipeline.history_of(number(i), number(j)).value_or(Talus::HistoryValues{});
+    const auto h = Talus::ContactSurvey(pipeline)
+                       .history_of(number(i), number(j))
+                       .value_or(Talus::HistoryValues{});
     return {{h[0], h[1], h[2], h[3]}};
   }
 

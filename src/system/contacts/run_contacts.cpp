@@ -37,7 +37,7 @@ void RunContacts::for_each(ContactData requested, const VisitContact &visit) con
 void RunContacts::visit_all(ContactData requested, const VisitContact &visit) const
 {
   if (system.pipeline().num_particles() == atom->nlocal + atom->nghost)
-    system.pipeline().for_each_contact(requested, visit);
+    ContactSurvey(system.pipeline()).for_each_contact(requested, visit);
   if (const ShapedParticles *shapes = system.shapes())
     shapes->pairs().for_each_contact(system.pipeline().law_table(), visit);
   int number = 0;
@@ -186,26 +186,28 @@ void RunContacts::forget()
 double RunContacts::count() const
 {
   const ShapedParticles *shapes = system.shapes();
-  return system.pipeline().count_contacts() + (shapes ? shapes->pairs().count_contacts() : 0.0);
+  return ContactSurvey(system.pipeline()).count_contacts() +
+         (shapes ? shapes->pairs().count_contacts() : 0.0);
 }
 
 double RunContacts::count_candidates() const
 {
   const ShapedParticles *shapes = system.shapes();
-  return system.pipeline().count_candidates() + (shapes ? shapes->pairs().count_candidates() : 0.0);
+  return ContactSurvey(system.pipeline()).count_candidates() +
+         (shapes ? shapes->pairs().count_candidates() : 0.0);
 }
 
 DeepestContact RunContacts::deepest() const
 {
   const ShapedParticles *shapes = system.shapes();
-  const DeepestContact spheres = system.pipeline().deepest_contact();
+  const DeepestContact spheres = ContactSurvey(system.pipeline()).deepest_contact();
   return shapes ? std::max(spheres, shapes->deepest_contact()) : spheres;
 }
 
 DeepestContact RunContacts::deepest_since_rebuild() const
 {
   const ShapedParticles *shapes = system.shapes();
-  const DeepestContact spheres = system.pipeline().deepest_since_rebuild();
+  const DeepestContact spheres = ContactSurvey(system.pipeline()).deepest_since_rebuild();
   return shapes ? std::max(spheres, shapes->pairs().deepest_since_set()) : spheres;
 }
 
@@ -213,7 +215,7 @@ DeepestContact RunContacts::deepest_since_rebuild() const
 
 std::optional<HistoryValues> RunContacts::history_of(int i, int j) const
 {
-  if (update->whichflag != 0) return system.pipeline().history_of(i, j);
+  if (update->whichflag != 0) return ContactSurvey(system.pipeline()).history_of(i, j);
   const FoundHistory found = system.memory().pairs().find_of_atoms(i, j);
   if (!found.known) return std::nullopt;
   return found.seen_by_a();

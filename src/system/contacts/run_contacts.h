@@ -9,7 +9,7 @@
 #ifndef TALUS_SYSTEM_CONTACTS_RUN_CONTACTS_H
 #define TALUS_SYSTEM_CONTACTS_RUN_CONTACTS_H
 
-#include "contact/contact_pipeline.h"
+#include "contact/contact_survey.h"
 #include "laws/contact_energy.h"
 
 #include "pointers.h"
@@ -29,7 +29,7 @@ class RunContacts : protected LAMMPS_NS::Pointers {
 
   /// visit(contact) for those on this rank, those with a ghost as well. After a run only as long as
   /// someone observes them, and collective then.
-  using VisitContact = ContactPipeline::VisitContact;
+  using VisitContact = ContactSurvey::VisitContact;
   void for_each(ContactData requested, const VisitContact &visit) const;
   /// Of those that two ranks know, or one twice, only one is.
   bool is_of_this_rank(const ContactReport &one) const;

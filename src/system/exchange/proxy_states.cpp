@@ -39,9 +39,9 @@ void ProxyStates::update(bool overlap, ContactPipeline &particles, const Particl
                          bool stay)
 {
   DirectExchange *proxies = exchange.direct();
-  const bool from_records = particles.holds_state();
+  const bool from_records = particles.motion().holds_state();
   in_records = from_records && stay && proxies && !proxies->is_checking();
-  if (from_records && !in_records) particles.copy_states_to_arrays(sent(), arrays);
+  if (from_records && !in_records) particles.motion().copy_states(sent(), arrays);
   if (!proxies || !proxies->has_plan() || !(overlap || in_records)) {
     comm->forward_comm();    // complete at its end
     return;

@@ -217,21 +217,21 @@ template <class Call> void FixCalls::call_all(Phase &phase, Call call)
 
 void FixCalls::initial_integrate(int vflag)
 {
-  if (!system.pipeline().holds_state()) return modify->initial_integrate(vflag);
+  if (!system.pipeline().motion().holds_state()) return modify->initial_integrate(vflag);
   call_all(initial, [vflag](Fix *fix) { fix->initial_integrate(vflag); });
 }
 
 void FixCalls::post_integrate()
 {
   if (!modify->n_post_integrate) return;
-  if (!system.pipeline().holds_state()) return modify->post_integrate();
+  if (!system.pipeline().motion().holds_state()) return modify->post_integrate();
   call_all(post, [](Fix *fix) { fix->post_integrate(); });
 }
 
 void FixCalls::post_force(int vflag)
 {
   if (!modify->n_post_force_any) return;
-  const bool in_records = system.pipeline().holds_state();
+  const bool in_records = system.pipeline().motion().holds_state();
   if (groups_are_due()) {
     forget_members();
     if (in_records) update_groups(vflag);
@@ -242,7 +242,7 @@ void FixCalls::post_force(int vflag)
 
 void FixCalls::final_integrate()
 {
-  if (!system.pipeline().holds_state()) return modify->final_integrate();
+  if (!system.pipeline().motion().holds_state()) return modify->final_integrate();
   call_all(final, [](Fix *fix) { fix->final_integrate(); });
 }
 
@@ -296,7 +296,7 @@ bool FixCalls::somebody_looks() const
 void FixCalls::end_of_step()
 {
   if (!modify->n_end_of_step) return;
-  if (system.pipeline().holds_state() && somebody_looks()) system.step().show_step();
+  if (system.pipeline().motion().holds_state() && somebody_looks()) system.step().show_step();
   modify->end_of_step();
 }
 

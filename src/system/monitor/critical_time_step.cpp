@@ -8,6 +8,7 @@
 #include "atom.h"
 #include "base/in_parallel.h"
 #include "comm.h"
+#include "contact/contact_survey.h"
 #include "force.h"
 #include "math_const.h"
 
@@ -45,7 +46,7 @@ ContactResponse without_damping(ContactResponse contact)
 void CriticalTimeStep::compute(const PairCoeffs &laws, const ContactPipeline &contacts, int group)
 {
   sizes = smallest_particles(laws.num_types(), group);
-  const double mine = contacts.largest_relative_speed();
+  const double mine = ContactSurvey(contacts).largest_relative_speed();
   double speed;
   MPI_Allreduce(&mine, &speed, 1, MPI_DOUBLE, MPI_MAX, world);
 
@@ -53,7 +54,7 @@ void CriticalTimeStep::compute(const PairCoeffs &laws, const ContactPipeline &co
   elastic.clear();
   looks_at_damping = true;
   consider_pairs(laws, speed);
-  contact = reduce_smallest(contacts.smallest_contact_period());
+  contact = reduce_smallest(ContactSurvey(contacts).smallest_contact_period());
   if (!(contact > 0.0)) contact = law_period;
   contact = smaller_defined(contact, period_of_shapes);
   contact = smaller_defined(contact, smallest_body_period(laws.num_types(), group));

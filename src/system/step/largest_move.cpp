@@ -43,10 +43,11 @@ double LargestMove::at_most(ContactPipeline &pipeline)
   if (is_known()) return distance;
   const bigint now = update->ntimestep;
   const bool follows = known_at == now - 1 && lists == neighbor->ncalls && !update->setupflag;
-  if (!follows || !was_in_records() || !pipeline.moves_all_owned()) return exactly(pipeline);
+  if (!follows || !was_in_records() || !pipeline.motion().moves_all_owned())
+    return exactly(pipeline);
   constexpr double more_than_rounding = 1.0 + 1.0e-9;
-  pipeline.complete_move();
-  distance = more_than_rounding * (distance + update->dt * pipeline.fastest());
+  pipeline.motion().complete();
+  distance = more_than_rounding * (distance + update->dt * pipeline.motion().fastest());
   known_at = now;
   exact = false;
   return distance;
@@ -57,10 +58,10 @@ double LargestMove::exactly(ContactPipeline &pipeline)
   double **then = neighbor->get_xhold();
   if (!is_checked() || !then) return HUGE_VAL;
   if (is_known() && exact) return distance;
-  if (!pipeline.holds_state()) {
+  if (!pipeline.motion().holds_state()) {
     distance = largest([this](int i) { return atom->x[i]; });
   } else {
-    pipeline.complete_move();
+    pipeline.motion().complete();
     const ParticleRecords &records = pipeline.records();
     const int *slots = pipeline.particle_order().slot_of_atom.data();
     distance = largest([&](int i) { return records.position[slots[i]].c; });

@@ -20,7 +20,7 @@ namespace Talus {
 
 ParticleState Step::particles()
 {
-  if (!contacts().holds_state()) return {atom->nlocal, view(), atom->type};
+  if (!contacts().motion().holds_state()) return {atom->nlocal, view(), atom->type};
   return {atom->nlocal, view(), atom->type, &contacts().records(),
           contacts().particle_order().slot_of_atom.data()};
 }
@@ -48,14 +48,14 @@ ParticleView Step::view() const
 
 void Step::complete_step_of(SystemFix &fix)
 {
-  if (!contacts().holds_state()) fix.complete_step();
+  if (!contacts().motion().holds_state()) fix.complete_step();
 }
 
 bool Step::return_to_arrays()
 {
   stays_in_records = false;
-  if (!contacts().holds_state()) return false;
-  const bool between_steps = !contacts().is_moving();
+  if (!contacts().motion().holds_state()) return false;
+  const bool between_steps = !contacts().motion().is_moving();
   leave_records(true);
   if (between_steps) complete_step();
   return true;
@@ -69,30 +69,30 @@ void Step::begin_rebuild()
 
 void Step::leave_records(bool with_forces)
 {
-  if (!contacts().holds_state()) return;
-  contacts().complete_move();
+  if (!contacts().motion().holds_state()) return;
+  contacts().motion().complete();
   parts.movers.leave_records();
-  contacts().return_state(view(), with_forces);
+  contacts().motion().return_state(view(), with_forces);
 }
 
 bool Step::begin_pair_styles()
 {
   if (system.pair_style().is_alone()) return false;
-  if (contacts().holds_state()) {
-    contacts().complete_move();
-    contacts().show(view(), proxies.have_arrived_in_records(), false);
+  if (contacts().motion().holds_state()) {
+    contacts().motion().complete();
+    contacts().motion().show(view(), proxies.have_arrived_in_records(), false);
   }
   return stays_in_records;
 }
 
 void Step::end_pair_styles()
 {
-  contacts().take_forces(view());
+  contacts().motion().take_forces(view());
 }
 
 void Step::show_particles()
 {
-  contacts().show(view(), true, true);
+  contacts().motion().show(view(), true, true);
 }
 
 /* Clumps know themselves whether their step is complete, and so do the spheres that they place; the

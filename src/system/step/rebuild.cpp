@@ -33,7 +33,7 @@ void Rebuild::keep_history(HistoryStore::Scope scope, bool pairs_stay)
 
 void Rebuild::end_contacts_of_run()
 {
-  contacts().leave_records();
+  contacts().motion().leave();
   parts.for_outputs.end_run();
 }
 

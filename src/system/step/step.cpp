@@ -34,7 +34,7 @@ void Step::start_run(bool pairs_computed)
 
 void Step::advance(const Fix *integrator, const RecordStep &step, int frozen_groups)
 {
-  if (!contacts().holds_state()) {
+  if (!contacts().motion().holds_state()) {
     const SystemFix &talus_fix = *SystemFix::of(integrator);
     ChangeRecord *const changes = talus_fix.keeps_changes() ? particles().changes() : nullptr;
     if (!talus_fix.places_particles())
@@ -42,11 +42,11 @@ void Step::advance(const Fix *integrator, const RecordStep &step, int frozen_gro
     return;
   }
   if (!parts.movers.give(step)) return;
-  if (!contacts().can_move()) {
-    contacts().prepare_to_move([this](int i) { return parts.movers.mover_of(i); }, proxies.sent());
+  if (!contacts().motion().is_prepared()) {
+    contacts().motion().prepare([this](int i) { return parts.movers.mover_of(i); }, proxies.sent());
   }
   system.weights().begin_step(contacts());
-  contacts().advance(parts.movers.steps());
+  contacts().motion().advance(parts.movers.steps());
   largest_move.moves_in_records();
 }
 
@@ -84,7 +84,7 @@ void Step::compute_contacts(const std::function<void(const TalliedContact &)> *t
   const int order =
       system.store()->order_of_histories();    // that of the run, since pairs were numbered
   step.lag = order == 2 ? parts.movers.lag() : 0.0;
-  step.read = !contacts().holds_state();
+  step.read = !contacts().motion().holds_state();
   step.read_ghosts = !proxies.take_arrived_in_records();
   step.deliver = !stays_in_records;
   step.add_to_arrays = stays_in_records && !alone;
@@ -100,7 +100,7 @@ void Step::compute_contacts(const std::function<void(const TalliedContact &)> *t
     step.add_other_forces = &add_bodies;
 
   compute_around_proxies(step);
-  if (step.deliver && contacts().keeps_changes())
+  if (step.deliver && contacts().motion().keeps_changes())
     system.store()->store_velocities(parts.movers.groups_with_changes());
   if (ShapedParticles *shapes = system.shapes()) shapes->compute_contacts(step);
   system.store()->pairs_are_current();
@@ -118,11 +118,11 @@ bool Step::needs_changes(int order) const
 
 void Step::find_changes(ContactStep &step, int order)
 {
-  if (const bool needed = needs_changes(order); needed != contacts().keeps_changes()) {
-    contacts().keep_changes(needed);
+  if (const bool needed = needs_changes(order); needed != contacts().motion().keeps_changes()) {
+    contacts().motion().keep_changes(needed);
     system.store()->keep_changes(needed);
   }
-  if (!contacts().keeps_changes()) return;
+  if (!contacts().motion().keeps_changes()) return;
   const bool moved_in_arrays = step.read && !largest_move.was_in_records();
   if (moved_in_arrays && !update->setupflag)
     system.store()->follow_velocities(parts.movers.groups_with_changes(), system.shapes());
@@ -135,7 +135,7 @@ void Step::find_changes(ContactStep &step, int order)
 float Step::weight_of_changes(bool setting_up) const
 {
   constexpr int every = 4;
-  if (!contacts().keeps_changes()) return 0.0F;
+  if (!contacts().motion().keeps_changes()) return 0.0F;
   if (setting_up || contacts().law_table().second_order()) return 1.0F;
   return system.account().is_asked() && update->ntimestep % every == 0 ? every : 0.0F;
 }

@@ -60,7 +60,7 @@ class Step : protected LAMMPS_NS::Pointers {
   void advance(const LAMMPS_NS::Fix *integrator, const RecordStep &step, int frozen_groups = 0);
   /// Of particles that are to be moved on the way through the records: now, so that they may be
   /// looked at.
-  void complete_move() { contacts().complete_move(); }
+  void complete_move() { contacts().motion().complete(); }
   /// After particles have moved: largest distance of an owned particle from where it was when
   /// neighbor lists were made, or a little more; and exactly. Infinity if that is not known.
   double moved_at_most() { return largest_move.at_most(contacts()); }
