@@ -89,6 +89,15 @@ void FixContactStore::use_cells(double edge)
   for (int i = 0; i < atom->nlocal; i++) refresh_key(i);
 }
 
+void FixContactStore::forget_pairs()
+{
+  memory_of_contacts.drop_spheres();
+  keep_changes(false);
+  inverse_cell = 0.0;
+  order = 0;
+  current = false;
+}
+
 void FixContactStore::init()
 {
   Talus::require_intact_particles(lmp);

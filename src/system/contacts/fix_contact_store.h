@@ -49,6 +49,8 @@ class FixContactStore : public Fix {
   /// Edge of the cells of the canonical order (length), unless it is known: of an earlier run, or of a restart
   /// file.
   void use_cells(double edge);
+  /// The pair style is going: the next one begins anew.
+  void forget_pairs();
   /// Records that the laws of an integrator of this order need of each contact, see HistoryRows.
   void keep_histories(int records, int integration_order);
   /// To be called by the system whenever it has computed forces: its pairs hold the latest

@@ -88,7 +88,7 @@ void GranularSystem::detach(const Pair *pair)
   if (!pair || pair != attached.get()) return;
   monitors.remove(pair);
   attached.set(nullptr);
-  contact_memory.drop_spheres();
+  if (contact_store) contact_store->forget_pairs();
   pair_coeffs = PairCoeffs{};
   prepared.reset();
   announced.clear();
