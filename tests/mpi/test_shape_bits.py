@@ -130,6 +130,33 @@ class ShapeBits(SceneCase):
                 self.assertIn("All restart file peratom fix info was re-assigned", log)
                 self.assert_same(second, one)
 
+    def test_new_ids(self):
+        """Two boxes one on the other, held by friction: contacts are known by the IDs that particles had."""
+        pile = "".join(f"create_atoms 1 single {x} 4 {z}\n" for z in (0.299, 0.897) for x in (1, 4))
+        script = "units lj\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\nboundary f f f\n" \
+            f"processors * * 1\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n{pile}" \
+            "region left block 0 2 0 8 0 8\ndelete_atoms region left compress no\nneighbor 0.3 bin\ntimestep 0.0005\n" \
+            f"pair_style gran/penalty\npair_coeff * * {LAW}\nfix s all shape/gran type 1 box 0.8 0.7 0.6 density 1\n" \
+            f"fix g all gravity/talus 15 vector 0.15 0 -1\nfix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n" \
+            "run 4000\n{}run 1000\nwrite_dump all custom end id x y z vx vy vz modify format float %a\n"
+
+        def end(np, between):
+            self.run_lammps(script.replace("{}", between), np=np)
+            frame, = read_dump(self.path("end"))
+            rows = [dict(zip(frame.columns, row)) for row in frame.atoms.values()]
+            return sorted(rows, key=lambda row: row["z"]), sorted(frame.atoms)
+
+        same, ids = end(1, "")
+        self.assertEqual(ids, [2, 4])
+        for row in same:
+            self.assertLess(abs(row["x"] - 4.0), 0.06, "friction holds it")
+        for np in 1, 2:
+            new, ids = end(np, "reset_atoms id sort yes\n")
+            self.assertEqual(ids, [1, 2])
+            for mine, row in zip(new, same):
+                for key in "x", "vx":
+                    self.assertLess(abs(mine[key] - row[key]), 1e-12, f"{np} ranks, {key}")
+
 
 if __name__ == "__main__":
     unittest.main()
