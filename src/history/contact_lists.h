@@ -40,8 +40,9 @@ class ContactLists {
   void forget(int particle) { first_of[particle] = last_of[particle] = 0; }
   /// All contacts of all particles.
   void clear();
-  /// Those of all particles of which remove(contact) says so.
+  /// Those of all particles, or of one, of which remove(contact) says so.
   template <class Remove> void remove_if(Remove remove);
+  template <class Remove> void remove_if(int particle, Remove remove);
 
   /// A further contact of a particle: its values, which are zero. Valid until the next add().
   double *add(int particle, std::int64_t partner, std::uint64_t feature, int values);
@@ -107,6 +108,21 @@ template <class Remove> void ContactLists::remove_if(Remove remove)
       if (!remove(one)) rest.add_copy(i, one);
     });
   *this = std::move(rest);
+}
+
+template <class Remove> void ContactLists::remove_if(int particle, Remove remove)
+{
+  std::uint32_t n = first_of[particle];
+  forget(particle);
+  while (n) {
+    const std::uint32_t next = contacts[n - 1].next;
+    if (!remove(contact(n))) {
+      (last_of[particle] ? contacts[last_of[particle] - 1].next : first_of[particle]) = n;
+      last_of[particle] = n;
+      contacts[n - 1].next = 0;
+    }
+    n = next;
+  }
 }
 
 template <class Skip> int ContactLists::unpack(int particle, const double *from, Skip skip)

@@ -26,12 +26,13 @@ void ContactMemory::remove(const Holder &holder)
   if (known == holders.end()) return;
   holders.erase(known);
   awake -= !holder.at_rest;
-  store.lists.remove_if([&](const ContactLists::Contact &one) { return holder.owns(one); });
+  if (holder.was_awake)
+    store.lists.remove_if([&](const ContactLists::Contact &one) { return holder.owns(one); });
 }
 
 /* What those who are not at rest had put aside before is still there, if others have not taken theirs since. */
 
-void ContactMemory::put_all_aside(bool all_ranks)
+void ContactMemory::put_all_aside()
 {
   std::vector<Holder *> those;
   for (Holder *one : holders)
@@ -44,7 +45,7 @@ void ContactMemory::put_all_aside(bool all_ranks)
     });
   for (Holder *one : those) {
     one->at_rest = true;
-    one->put_aside(store.lists, all_ranks);
+    one->put_aside(store.lists);
   }
 }
 
@@ -52,6 +53,7 @@ void ContactMemory::are_taken(Holder &holder)
 {
   awake += holder.at_rest;
   holder.at_rest = false;
+  holder.was_awake = true;
   if (awake == holders.size()) store.lists.clear();
 }
 
@@ -69,7 +71,7 @@ void ContactMemory::drop_spheres()
 
 void ContactMemory::exchange_state(StateExchange &x)
 {
-  if (!x.restores()) put_aside(false);
+  if (!x.restores()) put_aside();
   x(store);
   if (!x.restores()) return;
   for (Holder *one : holders) one->at_rest = true;

@@ -34,16 +34,15 @@ class ContactMemory {
     bool is_at_rest() const { return at_rest; }
     /// This contact of the lists is one of its own.
     virtual bool owns(const ContactLists::Contact &one) const = 0;
-    /// Adds all contacts to the lists, while particles have the indices that it knows. `all_ranks`: they do the same
-    /// now, and may be asked.
-    virtual void put_aside(ContactLists &to, bool all_ranks) = 0;
+    /// Adds all contacts to the lists, while particles have the indices that it knows. Other ranks may not do so now.
+    virtual void put_aside(ContactLists &to) = 0;
 
    protected:
     ~Holder() = default;
 
    private:
     friend class ContactMemory;
-    bool at_rest = true;
+    bool at_rest = true, was_awake = false;
   };
 
   explicit ContactMemory(int this_rank = 0) : store(this_rank) { add(spheres); }
@@ -54,7 +53,7 @@ class ContactMemory {
   static std::int64_t name_of(const std::string &id);
 
   void add(Holder &holder);
-  /// With all that it had.
+  /// With all that it had; but not what a file has brought for it, if it has never taken that.
   void remove(const Holder &holder);
   /// There are more than those of spheres.
   bool has_others() const { return holders.size() > 1; }
@@ -62,9 +61,9 @@ class ContactMemory {
   HistoryStore &pairs() { return store; }
   const ContactLists &lists() const { return store.lists; }
 
-  void put_aside(bool all_ranks)
+  void put_aside()
   {
-    if (awake) put_all_aside(all_ranks);
+    if (awake) put_all_aside();
   }
   /// By one that is at rest: it has read its contacts, or they are about to change.
   void are_taken(Holder &holder);
@@ -87,10 +86,10 @@ class ContactMemory {
     {
       return HistoryStore::is_of_spheres(one);
     }
-    void put_aside(ContactLists & /*to*/, bool /*all_ranks*/) override {}
+    void put_aside(ContactLists & /*to*/) override {}
   };
 
-  void put_all_aside(bool all_ranks);
+  void put_all_aside();
 
   HistoryStore store;
   Spheres spheres;

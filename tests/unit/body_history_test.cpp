@@ -78,7 +78,7 @@ class BodyHistoryTest : public testing::TestWithParam<std::tuple<int, bool>> {
 
   Packed packed(int particle)
   {
-    memory.put_aside(false);
+    memory.put_aside();
     Packed values(memory.pairs().list_size(particle), 7.0);
     EXPECT_EQ(memory.pairs().pack_list(particle, values.data()), values.size());
     return values;
@@ -188,7 +188,7 @@ TEST_P(BodyHistoryTest, NumbersThatAreKeptLaterAreZero)
 TEST_P(BodyHistoryTest, MemoryIsThatOfTheCandidates)
 {
   const double few = history.memory_usage();
-  memory.put_aside(false);
+  memory.put_aside();
   memory.pairs().resize(100000);
   follow({3, 17, 5, 11});
   EXPECT_LE(history.memory_usage(), few);
@@ -233,7 +233,7 @@ TEST(OneContact, KnowsTheNormalOfTheStepBefore)
   history.set_touching(0, 3U, 3U);
   EXPECT_EQ(history.replace_normal(1, {0.0, 0.6, 0.8}).z, 0.0) << "a new contact has none";
   EXPECT_EQ(history.replace_normal(1, {0.0, 0.8, 0.6}).z, 0.8);
-  memory.put_aside(false);
+  memory.put_aside();
   memory.pairs().copy(17, 5);
   history.follow({5, 17}, no_room);
   EXPECT_EQ(history.replace_normal(0, {1.0, 0.0, 0.0}).z, 0.6);

@@ -29,7 +29,7 @@ class Body : public ContactMemory::Holder {
   {
     return one.partner == name && one.feature == feature;
   }
-  void put_aside(ContactLists &to, bool /*all_ranks*/) override
+  void put_aside(ContactLists &to) override
   {
     for (const auto &[particle, value] : held) *to.add(particle, name, feature, 1) = value;
     held.clear();
@@ -83,7 +83,7 @@ class Memory : public testing::Test {
 
   void move(int from, int to)
   {
-    memory.put_aside(false);
+    memory.put_aside();
     memory.pairs().copy(from, to);
     memory.pairs().forget(from);
     for (auto &[n, of_body] : model) {
@@ -120,7 +120,7 @@ TEST_F(Memory, HasEachContactOnce)
       move(random.below(10), 10 + random.below(10));
       break;
     case 1:
-      memory.put_aside(true);
+      memory.put_aside();
       break;
     case 2:    // a command is deleted, and one with its name defined
       memory.remove(*bodies[n]);
@@ -154,7 +154,7 @@ TEST_F(Memory, IsRestored)
 TEST_F(Memory, IsEmptyWhenAllHaveTakenTheirs)
 {
   for (int n = 0; n < 40; n++) step(n % 4);
-  memory.put_aside(false);
+  memory.put_aside();
   EXPECT_FALSE(memory.lists().empty());
   memory.drop_spheres();
   for (auto &one : bodies) one->take(memory);

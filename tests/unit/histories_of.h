@@ -14,7 +14,7 @@ inline std::vector<Talus::HistoryValues> histories_of(Talus::BodyHistory &histor
   constexpr int most_particles = 5000;
   Talus::ContactLists lists;
   lists.grow(most_particles);
-  history.put_aside(lists, false);
+  history.put_aside(lists);
   std::vector<Talus::HistoryValues> found;
   lists.for_each(particle, [&](const Talus::ContactLists::Contact &one) {
     found.push_back(Talus::BodyHistory::values_of(one));

@@ -79,7 +79,7 @@ TEST_F(WallHistory, RestsInTheMemory)
   history.set_touching(0, 3U, 1U);
   history.record(0).c[0] = 2.5;
   EXPECT_EQ(history.particles_in_contact(10), std::vector<int>{2});
-  memory.put_aside(false);
+  memory.put_aside();
   EXPECT_EQ(row(2), (Row{{0, 2.5}}));
   EXPECT_TRUE(row(7).empty());
   EXPECT_EQ(history.particles_in_contact(10), std::vector<int>{2});
@@ -91,7 +91,7 @@ TEST_F(WallHistory, TakesWhatIsAdded)
   history.keep_parts(true);
   history.follow({4}, {3});
   fill({5});
-  memory.put_aside(false);
+  memory.put_aside();
   put(4, 6, 60.0);
   history.follow({1, 4}, {3, 3});
   EXPECT_EQ(history.count(1), 2);
@@ -119,7 +119,7 @@ TEST_F(WallHistory, PlacesAreThoseOfTheStockFix)
   history.follow({4}, {6});
   fill({1, 2, 3});
   touch({2, 3});    // the last one takes the place of the first
-  memory.put_aside(false);
+  memory.put_aside();
   EXPECT_EQ(row(4), (Row{{3, 30.0}, {2, 20.0}}));
 }
 

@@ -64,7 +64,7 @@ HistoryValues BodyHistory::values_of(const ContactLists::Contact &one)
   return values;
 }
 
-void BodyHistory::put_aside(ContactLists &to, bool /*all_ranks*/)
+void BodyHistory::put_aside(ContactLists &to)
 {
   for (std::size_t c = 0; c < owners.size(); c++)
     for (int k = 0; k < count(c); k++) {
@@ -105,7 +105,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
     for (const int i : owners) last = std::max(last, i);
     for (const int i : candidates) last = std::max(last, i);
     between.grow(last + 1);
-    put_aside(between, false);
+    put_aside(between);
   }
   const ContactLists &from = rests() ? memory->lists() : between;
   owners = candidates;
@@ -125,6 +125,7 @@ void BodyHistory::follow(const std::vector<int> &candidates, const std::vector<s
   normals.resize(with_normals ? slots : 0);
   parts.resize(with_several && with_parts ? slots : 0);
   for (std::size_t c = 0; c < n; c++) take_back(c, from);
+  forgets_those_at_rest = false;
   begin_step();
 }
 
@@ -138,7 +139,10 @@ void BodyHistory::take_back(std::size_t c, const ContactLists &from)
   from.for_each(owners[c], [&](const ContactLists::Contact &one) {
     if (k == most || !owns(one)) return;
     const std::size_t slot = first_slot(c) + k++;
-    if (with_normals) normals[slot] = {one.value[0], one.value[1], one.value[2]};
+    if (with_normals)
+      normals[slot] = forgets_those_at_rest
+                          ? Vector3<double>{0.0, 0.0, 0.0}
+                          : Vector3<double>{one.value[0], one.value[1], one.value[2]};
     if (with_several && with_parts) parts[slot] = static_cast<int>(one.feature);
     rows.set_values(slot, values_of(one));
   });

@@ -75,7 +75,7 @@ class BodyHistory : public ContactMemory::Holder {
   {
     return one.partner == name && !(one.feature & ContactLists::of_shape);
   }
-  void put_aside(ContactLists &to, bool all_ranks) override;
+  void put_aside(ContactLists &to) override;
 
   /// Before the histories of candidates change.
   void begin_step()
@@ -153,7 +153,9 @@ class BodyHistory : public ContactMemory::Holder {
   /// Where they were not stored in every step.
   void forget_normals()
   {
-    if (!with_several) std::fill(normals.begin(), normals.end(), Vector3<double>{0.0, 0.0, 0.0});
+    if (with_several) return;
+    std::fill(normals.begin(), normals.end(), Vector3<double>{0.0, 0.0, 0.0});
+    forgets_those_at_rest = true;
   }
 
   /// Contacts that a candidate has.
@@ -177,6 +179,7 @@ class BodyHistory : public ContactMemory::Holder {
   void clear(std::size_t block, unsigned separated);
 
   bool with_several = false, with_normals = false, with_parts = false;
+  bool forgets_those_at_rest = false;    // normals
   ContactMemory *memory = nullptr;
   std::int64_t name = 0;
   std::vector<int> owners;    // of candidates: local indices

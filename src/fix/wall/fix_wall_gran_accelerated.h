@@ -130,7 +130,15 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
 
   // SystemFix
   std::string reason_for_stock() const override { return stock_reason; }
-  void exchange_state(StateExchange &x) override { x(for_outputs); }
+  void exchange_state(StateExchange &x) override
+  {
+    bool in_memory = contacts.history.has_memory();
+    x(for_outputs, in_memory);
+    if (in_memory)
+      contacts.history.rest_in(system->memory(), ContactMemory::name_of(this->id));
+    else
+      contacts.history.leave_memory();
+  }
   void state_is_restored() override { is_listed = false; }
   bool adds_forces() const override { return true; }
   bool is_touched() const override { return true; }
@@ -186,10 +194,13 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   void take_arrays()
   {
     ContactMemory &memory = system->memory();
-    memory.put_aside(true);
+    memory.put_aside();
     contacts.history.rest_in(memory, ContactMemory::name_of(this->id));
     for (int i = 0; i < this->atom->nlocal; i++) {
       const int all = count(i);
+      if (all)    // a restart file has them twice
+        memory.lists_to_fill().remove_if(
+            i, [this](const ContactLists::Contact &one) { return contacts.history.owns(one); });
       for (int k = 0; k < all; k++) {
         HistoryValues values{};
         const int part = read(i, k, values);
@@ -200,7 +211,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   }
   void fill_arrays()
   {
-    system->memory().put_aside(true);
+    system->memory().put_aside();
     for (int i = 0; i < this->atom->nlocal; i++) fill_row(i);
   }
   void fill_row(int i)

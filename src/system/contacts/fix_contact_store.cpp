@@ -38,6 +38,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
 {
   if (narg != 3 || !utils::strmatch(id, "^TALUS_CONTACTS"))
     error->all(FLERR, "Fix CONTACT_STORE is internal to Talus");
+  system->store_is_there(this);
 
   restart_global = 1;
   restart_peratom = 1;
@@ -91,6 +92,7 @@ void FixContactStore::use_cells(double edge)
 
 void FixContactStore::forget_pairs()
 {
+  if (!was_used) return;
   memory_of_contacts.drop_spheres();
   keep_changes(false);
   inverse_cell = 0.0;
@@ -103,13 +105,27 @@ void FixContactStore::init()
   Talus::require_intact_particles(lmp);
   comm_border = has_pairs() ? size_border : 0;
   force_reneighbor = has_pairs() ? 1 : 0;
-  if (has_pairs()) init_for_pairs();
+  was_used = true;
+  if (has_pairs())
+    init_for_pairs();
+  else
+    init_without_pairs();
   // from a restart file, of which a rank without particles may know nothing
   const int mine[2] = {store.largest_list(atom->nlocal), order};
   int largest[2] = {0, 0};
   MPI_Allreduce(mine, largest, 2, MPI_INT, MPI_MAX, world);
   set_maxexchange(largest[0]);
   order = largest[1];
+}
+
+/* Contacts of spheres are those of a style of LAMMPS. */
+
+void FixContactStore::init_without_pairs()
+{
+  memory_of_contacts.drop_spheres();
+  keep_changes(false);
+  guards_positions = false;
+  positions = {};
 }
 
 void FixContactStore::init_for_pairs()
@@ -182,7 +198,10 @@ void FixContactStore::pre_neighbor()
 void FixContactStore::post_neighbor()
 {
   current = false;
-  if (has_pairs()) system->rebuild().renumber_pairs();
+  if (has_pairs())
+    system->rebuild().renumber_pairs();
+  else
+    memory_of_contacts.drop_spheres();
 }
 
 void FixContactStore::min_post_neighbor()
@@ -301,7 +320,8 @@ void FixContactStore::store_histories(Occasion occasion)
     system->rebuild().keep_history({particles_may_leave, in_periodic_box()}, !rebuild);
     current = false;
   }
-  memory_of_contacts.put_aside(true);
+  memory_of_contacts.put_aside();
+  if (Talus::ShapedParticles *shapes = system->shapes()) shapes->agree_with_other_ranks();
   agree_with_other_ranks();
 }
 

@@ -49,8 +49,10 @@ class FixContactStore : public Fix {
   /// Edge of the cells of the canonical order (length), unless it is known: of an earlier run, or of a restart
   /// file.
   void use_cells(double edge);
-  /// The pair style is going: the next one begins anew.
+  /// The pair style is going: the next one begins anew, but for what a restart file has brought.
   void forget_pairs();
+  /// A restart file had contacts between spheres, as this fix writes them.
+  bool has_read_pairs() const { return pairs_were_read; }
   /// Records that the laws of an integrator of this order need of each contact, see HistoryRows.
   void keep_histories(int records, int integration_order);
   /// To be called by the system whenever it has computed forces: its pairs hold the latest
@@ -132,6 +134,7 @@ class FixContactStore : public Fix {
   std::string name() const;
   std::string unassignable(const char *how) const;
   void init_for_pairs();
+  void init_without_pairs();
   void require_numbers() const;
   void agree_with_other_ranks();
   void set_maxexchange(int largest_list);
@@ -152,6 +155,7 @@ class FixContactStore : public Fix {
   bool current = false;
   int order = 0;
   int largest_read = 0;    // lists of a restart file on this rank, doubles
+  bool pairs_were_read = false, was_used = false;
   double inverse_cell = 0.0;
   std::vector<std::uint64_t> keys;
   bool with_changes = false, with_last = false;    // on all ranks alike, also without particles

@@ -66,7 +66,7 @@ void FixContactStore::grow_arrays(int nmax)
 
 void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 {
-  memory_of_contacts.put_aside(false);
+  memory_of_contacts.put_aside();
   keys[j] = keys[i];
   if (with_changes) changes[j] = changes[i];
   if (with_last) last[j] = last[i];
@@ -76,7 +76,7 @@ void FixContactStore::copy_arrays(int i, int j, int /*delflag*/)
 
 void FixContactStore::set_arrays(int i)
 {
-  memory_of_contacts.put_aside(false);
+  memory_of_contacts.put_aside();
   refresh_key(i);
   if (guards_positions) std::copy(atom->x[i], atom->x[i] + 3, &positions[3 * i]);
   if (with_changes) changes[i] = Talus::ChangeRecord{};
@@ -126,7 +126,7 @@ int FixContactStore::unpack_border(int n, int first, double *buf)
 
 int FixContactStore::pack_exchange(int i, double *buf)
 {
-  memory_of_contacts.put_aside(false);
+  memory_of_contacts.put_aside();
   int m = 0;
   buf[m++] = as_double(keys[i]);
   for (int d = 0; guards_positions && d < 3; d++) buf[m++] = positions[3 * i + d];
@@ -137,7 +137,7 @@ int FixContactStore::pack_exchange(int i, double *buf)
 
 int FixContactStore::unpack_exchange(int i, double *buf)
 {
-  memory_of_contacts.put_aside(false);
+  memory_of_contacts.put_aside();
   int m = 0;
   keys[i] = from_double<std::uint64_t>(buf[m++]);
   for (int d = 0; guards_positions && d < 3; d++) positions[3 * i + d] = buf[m++];
@@ -198,7 +198,7 @@ void FixContactStore::exchange_histories(Talus::StateExchange &x)
 namespace {
 
 constexpr int restart_format = 6;
-enum State { INVERSE_CELL, PARTICLES, ORDER, STATE_SIZE };
+enum State { INVERSE_CELL, PARTICLES, ORDER, WITH_PAIRS, STATE_SIZE };
 constexpr int restart_header = Talus::size_particle_head + 3;
 
 }    // namespace
@@ -219,6 +219,7 @@ void FixContactStore::write_restart(FILE *fp)
   state[INVERSE_CELL] = inverse_cell;
   state[PARTICLES] = static_cast<double>(particles);
   state[ORDER] = order;
+  state[WITH_PAIRS] = has_pairs() ? 1.0 : 0.0;
   Talus::write_restart_data_of_fix(fp, restart_format, state, sizeof state);
 }
 
@@ -228,6 +229,7 @@ void FixContactStore::restart(char *buf)
   const std::string data = Talus::restart_data_of_fix(lmp, name(), restart_format, buf);
   std::memcpy(state, data.data(), sizeof state);
   order = static_cast<int>(state[ORDER]);
+  pairs_were_read = state[WITH_PAIRS] != 0.0;
   inverse_cell = state[INVERSE_CELL];
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
     error->all(FLERR, unassignable("added or deleted"));

@@ -61,7 +61,7 @@ int FixPairHistory::pack_restart(int i, double *buf)
 
 void FixPairHistory::unpack_restart(int i, int nth)
 {
-  if (system->store()->restart_reset) return;
+  if (system->store()->has_read_pairs()) return;
   const double *from = Talus::stock_particle_data(
       lmp, std::string("Pair style ") + system->pair_style().name(), i, nth,
       [this](const double *data) {

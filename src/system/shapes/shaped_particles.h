@@ -7,7 +7,7 @@
 //
 //   a run begins      forget_bodies(), set_up()
 //   a step            move(), by the command; compute_contacts() and touch_body(), by the system
-//   a rebuild         put_aside(), by ContactMemory; migration by the command; set_pairs()
+//   a rebuild         put_aside(), by ContactMemory, agree_with_other_ranks(); migration by the command; set_pairs()
 //
 //   shaped_particles.cpp        sizes, orientations, motion, questions
 //   shaped_particles_step.cpp   contacts
@@ -96,7 +96,9 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   {
     return (one.feature & ContactLists::of_shape) != 0;
   }
-  void put_aside(ContactLists &to, bool all_ranks) override;
+  void put_aside(ContactLists &to) override;
+  /// Collective, after it: in a periodic box on the histories of contacts across borders.
+  void agree_with_other_ranks();
   /// The pairs with a shape (local indices, at least one is owned).
   void set_pairs(const std::vector<std::array<int, 2>> &found);
   /// Adds the forces of their contacts where those of spheres are now, in the arrays of LAMMPS or
@@ -149,6 +151,8 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it
   bool is_set_up = false;
 
+  bool agreed = true;                       ///< all ranks have, since the last step
+  ShapedPairs::Messages for_other_ranks;    ///< until they agree
   SparseExchange exchange;
 };
 

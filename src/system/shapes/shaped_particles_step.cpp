@@ -18,21 +18,32 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-/* In a periodic box the rank of the first particle decides: all have to be there. */
+/* In a periodic box the rank of the first particle decides. */
 
-void ShapedParticles::put_aside(ContactLists &to, bool all_ranks)
+void ShapedParticles::put_aside(ContactLists &to)
 {
-  if (all_ranks && (domain->xperiodic || domain->yperiodic || domain->zperiodic)) {
-    ShapedPairs::Messages messages;
+  if (domain->xperiodic || domain->yperiodic || domain->zperiodic) {
     const HistoryStore &store = system.memory().pairs();
     pairs_here.save_in_periodic_box(
-        to, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); }, messages);
-    exchange.run(messages, 0, [&](const std::vector<double> &m) { pairs_here.receive(m, to); });
+        to, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); },
+        for_other_ranks);
   } else {
     pairs_here.save(to);
   }
   for (auto &[body, wall] : walls)
     if (wall.points) wall.points->save(to);
+}
+
+/* A rank may have put its contacts aside before the others. */
+
+void ShapedParticles::agree_with_other_ranks()
+{
+  if (agreed) return;
+  agreed = true;
+  exchange.run(for_other_ranks, 0, [this](const std::vector<double> &m) {
+    pairs_here.receive(m, system.memory().lists_to_fill());
+  });
+  for_other_ranks.clear();
 }
 
 void ShapedParticles::forget(const LargeBody &body)
@@ -47,6 +58,7 @@ void ShapedParticles::forget(const LargeBody &body)
 
 void ShapedParticles::begin_step()
 {
+  agreed = false;
   if (is_at_rest()) system.memory().are_taken(*this);
 }
 

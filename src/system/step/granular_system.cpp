@@ -129,11 +129,10 @@ void GranularSystem::create_store()
 {
   if (contact_store) return;
   const std::string command = std::string(store_id) + " all CONTACT_STORE";
-  Fix *const made = modify->get_fix_by_id(placeholder_id)
-                        ? modify->replace_fix(placeholder_id, command, 1)
-                        : modify->add_fix(command);
-  contact_store = dynamic_cast<FixContactStore *>(made);
-  if (!contact_store) error->all(FLERR, "Talus cannot create fix {}", store_id);
+  if (modify->get_fix_by_id(placeholder_id))
+    modify->replace_fix(placeholder_id, command, 1);
+  else
+    modify->add_fix(command);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -87,7 +87,8 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   void create_store();
   /// An error where it should be there. `command`: who asks, for messages.
   void require_store(const std::string &command) const;
-  /// By the store when it goes.
+  /// By the store, as soon as it is there and when it goes.
+  void store_is_there(LAMMPS_NS::FixContactStore *store) { contact_store = store; }
   void store_is_gone() { contact_store = nullptr, store_was_there = true; }
   LargeBodies &bodies() { return large_bodies; }
   const Integrators &integrators() const { return movers; }
