@@ -187,7 +187,6 @@ struct OnFloor {
   {
     contacts.set_laws(p.scene.laws);
     contacts.history.keep(false);
-    contacts.history.grow(p.bed.owned);
     frame.origin = plane.reference_point();
     find();
   }
