@@ -4,7 +4,7 @@
 //
 // A thin style: reads its words (large_body_words.h), and calls Talus::LargeBody (system/bodies), which is the body, at the
 // hooks of LAMMPS.
-// doc/fix_large_body->md is the user's page.
+// doc/fix_large_body.md is the user's page.
 
 #ifndef LMP_FIX_LARGE_BODY_H
 #define LMP_FIX_LARGE_BODY_H
@@ -39,7 +39,7 @@ class FixLargeBody : public Fix, public Talus::SystemFix {
   void post_run() override;
   int modify_param(int, char **) override;
 
-  /// Energy stored in and dissipated by the contacts, and that of a free body->
+  /// Energy stored in and dissipated by the contacts, and that of a free body.
   double compute_scalar() override;
   /// force(3), torque(3), position(3), quaternion(4), velocity(3), angular velocity(3), contacts.
   double compute_vector(int) override;

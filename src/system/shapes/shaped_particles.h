@@ -91,6 +91,7 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   std::string refusal(LargeBody &body);
   /// There is a set-up: pairs and ghosts of shapes will be known.
   void set_up() { is_set_up = true; }
+
   // ContactMemory::Holder: of contact points
   bool owns(const ContactLists::Contact &one) const override
   {
@@ -135,6 +136,7 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   void tell_pairs(const ContactStep &step) const;
   void list_particles(const LargeBody &body, WallPoints &points);
   static std::int64_t name_of(const LargeBody &body);
+  bool in_periodic_box() const;
   void begin_step();
 
   GranularSystem &system;
@@ -146,12 +148,13 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
     std::unique_ptr<WallPoints> points;
   };
   Wall &wall_of(LargeBody &body);
+  WallPoints &points_of(LargeBody &body);
   std::map<const LargeBody *, Wall> walls;
   double **quat = nullptr;
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it
   bool is_set_up = false;
 
-  bool agreed = true;                       ///< all ranks have, since the last step
+  bool agreed = true;                       ///< all ranks have, or need not, since the last step
   ShapedPairs::Messages for_other_ranks;    ///< until they agree
   SparseExchange exchange;
 };

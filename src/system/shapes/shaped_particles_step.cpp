@@ -18,11 +18,16 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
+bool ShapedParticles::in_periodic_box() const
+{
+  return domain->xperiodic || domain->yperiodic || domain->zperiodic;
+}
+
 /* In a periodic box the rank of the first particle decides. */
 
 void ShapedParticles::put_aside(ContactLists &to)
 {
-  if (domain->xperiodic || domain->yperiodic || domain->zperiodic) {
+  if (in_periodic_box()) {
     const HistoryStore &store = system.memory().pairs();
     pairs_here.save_in_periodic_box(
         to, comm->me, [&](int i) { return store.owner_of_ghost(atom->nlocal, i); },
@@ -54,12 +59,14 @@ void ShapedParticles::forget(const LargeBody &body)
       [&](const ContactLists::Contact &one) { return owns(one) && one.partner == name; });
 }
 
-/* Histories go on from here. */
+/* Histories go on from here: all bodies have to have taken theirs, also those that are touched later in the step. */
 
 void ShapedParticles::begin_step()
 {
-  agreed = false;
-  if (is_at_rest()) system.memory().are_taken(*this);
+  if (in_periodic_box()) agreed = false;
+  if (!is_at_rest()) return;
+  for (LargeBody *body : system.bodies().in_order()) points_of(*body);
+  system.memory().are_taken(*this);
 }
 
 void ShapedParticles::set_pairs(const std::vector<std::array<int, 2>> &found)
@@ -70,11 +77,8 @@ void ShapedParticles::set_pairs(const std::vector<std::array<int, 2>> &found)
   pairs_here.set_pairs(view(), found, tags, system.law_table());
   const HistoryStore &store = system.memory().pairs();
   pairs_here.restore(system.memory().lists(), [&](int i) { return store.origin(i).name; });
-  for (LargeBody *body : system.bodies().in_order()) {
-    Wall &wall = wall_of(*body);
-    if (!wall.points) wall.points = std::make_unique<WallPoints>(shapes, name_of(*body));
-    list_particles(*body, *wall.points);
-  }
+  for (auto &[body, wall] : walls)
+    if (wall.points) list_particles(*body, *wall.points);
 }
 
 void ShapedParticles::list_particles(const LargeBody &body, WallPoints &points)
@@ -147,16 +151,23 @@ ShapedParticles::Wall &ShapedParticles::wall_of(LargeBody &body)
   return wall;
 }
 
-BodyLoad ShapedParticles::touch_body(LargeBody &body, const BodyStep &step)
+WallPoints &ShapedParticles::points_of(LargeBody &body)
 {
   Wall &wall = wall_of(body);
   if (!wall.points) {
     wall.points = std::make_unique<WallPoints>(shapes, name_of(body));
     list_particles(body, *wall.points);
   }
+  return *wall.points;
+}
+
+BodyLoad ShapedParticles::touch_body(LargeBody &body, const BodyStep &step)
+{
   if (step.advance) begin_step();
-  wall.surfaces->follow();
-  return wall.points->compute(*wall.surfaces, body.frame(), view(), body.law_table(), step);
+  WallPoints &points = points_of(body);
+  BodySurfaces &surfaces = *wall_of(body).surfaces;
+  surfaces.follow();
+  return points.compute(surfaces, body.frame(), view(), body.law_table(), step);
 }
 
 std::int64_t ShapedParticles::name_of(const LargeBody &body)
