@@ -82,11 +82,6 @@ class HistoryRows {
     for (int k = 0; k < num_records; k++) planes[k][row] = from[k];
   }
 
-  /// To 4 records() consecutive numbers.
-  void write(std::size_t row, double *to) const
-  {
-    for (int k = 0; k < num_records; k++) std::memcpy(to + 4L * k, &planes[k][row], sizeof(Record));
-  }
   /// As values of which those beyond records() are zero, and back. Compilers see that these do not go
   /// beyond the end.
   HistoryValues values(std::size_t row) const
