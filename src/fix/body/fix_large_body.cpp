@@ -39,7 +39,7 @@ FixLargeBody::~FixLargeBody()
 
 void FixLargeBody::post_constructor()
 {
-  if (body->keeps_history()) system->create_store();
+  if (body->keeps_history()) system->contact_store().create();
 }
 
 void FixLargeBody::offer_output()

@@ -65,7 +65,7 @@ FixShapeGran::~FixShapeGran()
 
 void FixShapeGran::post_constructor()
 {
-  system->create_store();
+  system->contact_store().create();
 }
 
 int FixShapeGran::setmask()

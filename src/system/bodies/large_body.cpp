@@ -83,7 +83,7 @@ void LargeBody::keep_history()
 
 void LargeBody::init()
 {
-  if (with_history) system.require_store(std::string("Fix large/body ") + fix->id);
+  if (with_history) system.contact_store().require(std::string("Fix large/body ") + fix->id);
   body_motion.init();
   monitor.start();
   system.run_monitor().start();

@@ -38,7 +38,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
 {
   if (narg != 3 || !utils::strmatch(id, "^TALUS_CONTACTS"))
     error->all(FLERR, "Fix CONTACT_STORE is internal to Talus");
-  system->store_is_there(this);
+  system->contact_store().is_there(this);
 
   restart_global = 1;
   restart_peratom = 1;
@@ -57,7 +57,7 @@ FixContactStore::FixContactStore(LAMMPS *lmp, int narg, char **arg) :
 FixContactStore::~FixContactStore()
 {
   give_sorting_back();    // after a run that ended in an error
-  if (system->store() == this) system->store_is_gone();
+  if (system->store() == this) system->contact_store().is_gone();
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   atom->delete_callback(id, Atom::BORDER);

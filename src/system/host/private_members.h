@@ -1,7 +1,31 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Private members of LAMMPS classes without public access: read here, and nowhere else in Talus. A
-// newer LAMMPS that renames one, or gives access to it, changes one source file.
+// newer LAMMPS that renames one, or gives access to it, changes one source file. What is needed, and
+// why; of all hosts since 4 Feb 2025 unless a line says more:
+//
+//   class               members                          why
+//   Comm                bordergroup, multi_reduce        settings of comm_modify that leave out ghosts
+//   CommBrick           localsendlist                    not set by `comm_style brick` after others, and freed
+//   Compute, Fix, Pair  instance_me                      a command that was given anew under its name
+//   Modify              (id, used)_restart_peratom       data of a restart file that no command has taken
+//   Neighbor            neigh_bin                        bins that nobody asks are left out
+//   PairHybrid          nstyles, styles, nmap            hybrid with one part that computes all pairs
+//   Variable            style, data, varstyles           formulas; before get_style() and get_info() came in
+//                                                        summer 2025 (TALUS_HOST_TELLS_FORMULAS)
+//   GranSubModNormal*   k, Emix                          stiffness of pair granular after mixing
+//   FixAve*             nvalid, nvalid_last              the next step that is read; a run that goes back
+//   FixPour             nfirst, ninserted, random        not in restart files
+//   FixGravity          disable, names of variables      the field alone
+//   FixAddForce ...     names of variables, idregion     what depends on time alone can be called in the records
+//   FixWall, FixWallReflect, FixLangevin                 flags: the same
+//   Region              point, runit, names of variables where it rotates, and what moves it
+//   RegBlock ...        parameters of the six styles     which particles may touch it (of RegPlane public
+//                                                        since 2026)
+//
+// private_members.cpp     communication, neighbors, pairs, variables
+// private_fixes.cpp       fixes
+// private_regions.cpp     regions
 
 #ifndef TALUS_SYSTEM_HOST_PRIVATE_MEMBERS_H
 #define TALUS_SYSTEM_HOST_PRIVATE_MEMBERS_H

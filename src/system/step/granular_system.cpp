@@ -11,7 +11,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "modify.h"
 #include "pair.h"
 #include "update.h"
 
@@ -21,16 +20,6 @@
 using namespace LAMMPS_NS;
 
 namespace Talus {
-
-namespace {
-
-// The same in every process: restart files find fixes by ID.
-constexpr const char *store_id = "TALUS_CONTACTS";
-// Keeps the place of the store in the list of fixes until the first run: only then read_restart has
-// brought what it is to continue with.
-constexpr const char *placeholder_id = "TALUS_CONTACTS_LATER";
-
-}    // namespace
 
 std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 {
@@ -44,9 +33,9 @@ std::shared_ptr<GranularSystem> GranularSystem::of(LAMMPS *lmp)
 }
 
 GranularSystem::GranularSystem(LAMMPS *lmp) :
-    Pointers(lmp), attached(lmp), contact_memory(comm->me), neighbor_source(lmp),
-    effective_masses(lmp), contact_range(lmp, pair_coeffs), monitor(lmp), time_step(lmp),
-    monitors(lmp), movers(lmp), energies(lmp, movers), run_contacts(lmp, *this),
+    Pointers(lmp), attached(lmp), contact_memory(comm->me), store_of_memory(lmp),
+    neighbor_source(lmp), effective_masses(lmp), contact_range(lmp, pair_coeffs), monitor(lmp),
+    time_step(lmp), monitors(lmp), movers(lmp), energies(lmp, movers), run_contacts(lmp, *this),
     exchange_switch(lmp), gravity(lmp, *this), record_steps(lmp, *this, movers), lists(lmp),
     set_up_with(lmp, *this), loads_of_others(lmp, *this),
     step_of_run(lmp, *this, {contact_pipeline, movers, run_contacts, time_step}),
@@ -66,17 +55,14 @@ bool GranularSystem::attach(Pair *pair, const AttachedPair::Traits &traits)
   attached.set(pair);
   attached.set_traits(traits);
   monitors.add(
-      pair,
-      {{0.5,
-        [this] { return contact_store ? contact_store->find_no_number() : RunMonitor::Finding{}; },
-        [this](const RunMonitor::Finding &found) {
-          contact_store->report_no_number(found);
-          return true;
-        }}});
+      pair, {{0.5, [this] { return store() ? store()->find_no_number() : RunMonitor::Finding{}; },
+              [this](const RunMonitor::Finding &found) {
+                store()->report_no_number(found);
+                return true;
+              }}});
   monitors.add(pair, monitor.checks([this] { return run_contacts.deepest_since_rebuild(); }));
   monitors.add(pair, {time_step.check(pair_coeffs)});
-  if (!contact_store) modify->add_fix(std::string(placeholder_id) + " all DUMMY");
-  store_was_there = contact_store != nullptr;
+  store_of_memory.keep_place();
   make_run_style_the_default(lmp);
   return true;
 }
@@ -88,16 +74,14 @@ void GranularSystem::detach(const Pair *pair)
   if (!pair || pair != attached.get()) return;
   monitors.remove(pair);
   attached.set(nullptr);
-  if (contact_store) contact_store->forget_pairs();
+  if (store()) store()->forget_pairs();
   pair_coeffs = PairCoeffs{};
   prepared.reset();
   announced.clear();
   energies.clear();
   run_contacts.forget();
   contact_pipeline.emplace();
-  if (contact_memory.has_others()) return;
-  for (const auto *internal : {store_id, placeholder_id})
-    if (modify->get_fix_by_id(internal)) modify->delete_fix(internal);
+  if (!contact_memory.has_others()) store_of_memory.remove();
 }
 
 void GranularSystem::init_pair_style()
@@ -108,31 +92,14 @@ void GranularSystem::init_pair_style()
   effective_masses.find_fixes();
   contact_range.find(effective_masses.frozen_groups(), shaped.get());
   contact_range.require_sizes(attached.name());
-  require_store(std::string("Pair style ") + attached.name());
-  create_store();
+  store_of_memory.require(std::string("Pair style ") + attached.name());
+  store_of_memory.create();
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
   const double largest = contact_range.radii().largest();
-  contact_store->use_cells(largest > 0.0 ? 0.125 * largest : 1.0);
+  store()->use_cells(largest > 0.0 ? 0.125 * largest : 1.0);
   monitors.start();
   time_step.start();
   prepared.reset();    // init_one() will mix what is not set
-}
-
-void GranularSystem::require_store(const std::string &command) const
-{
-  if (!contact_store && !modify->get_fix_by_id(placeholder_id))
-    error->all(FLERR, "{}: its internal fix {} has been deleted: remove the unfix command", command,
-               store_was_there ? store_id : placeholder_id);
-}
-
-void GranularSystem::create_store()
-{
-  if (contact_store) return;
-  const std::string command = std::string(store_id) + " all CONTACT_STORE";
-  if (modify->get_fix_by_id(placeholder_id))
-    modify->replace_fix(placeholder_id, command, 1);
-  else
-    modify->add_fix(command);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -143,7 +110,7 @@ void GranularSystem::prepare_laws()
 {
   if (prepared == pair_coeffs.revision()) return;
   const LawTable table = pair_coeffs.table(movers.order());
-  contact_store->keep_histories(table.history_records(), movers.order());
+  store()->keep_histories(table.history_records(), movers.order());
   contact_pipeline->set_laws(table);
   prepared = pair_coeffs.revision();
 
@@ -164,7 +131,7 @@ void GranularSystem::exchange_state(StateExchange &x)
   energies.exchange_state(x);
   if (x.restores()) {
     monitors.forget_step();
-    if (contact_store && contact_pipeline->has_pairs())
+    if (store() && contact_pipeline->has_pairs())
       contact_pipeline->take_back_histories(contact_memory.pairs());
   }
   run_contacts.exchange_state(x);

@@ -17,6 +17,7 @@
 #include "particles/particle_state.h"
 #include "system/bodies/large_bodies.h"
 #include "system/contacts/contact_range.h"
+#include "system/contacts/contact_store.h"
 #include "system/contacts/effective_masses.h"
 #include "system/contacts/energy_account.h"
 #include "system/contacts/neighbor_source.h"
@@ -48,7 +49,6 @@
 
 namespace LAMMPS_NS {
 class Fix;
-class FixContactStore;
 class Pair;
 }    // namespace LAMMPS_NS
 
@@ -81,15 +81,9 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   const ContactPipeline &pipeline() const { return *contact_pipeline; }
   /// What contacts remember.
   ContactMemory &memory() { return contact_memory; }
-  /// The fix that moves it with the particles; nullptr before create_store().
-  LAMMPS_NS::FixContactStore *store() const { return contact_store; }
-  /// By those who have contacts to remember, when there is a box: not in constructors of fixes, nor in their init().
-  void create_store();
-  /// An error where it should be there. `command`: who asks, for messages.
-  void require_store(const std::string &command) const;
-  /// By the store, as soon as it is there and when it goes.
-  void store_is_there(LAMMPS_NS::FixContactStore *store) { contact_store = store; }
-  void store_is_gone() { contact_store = nullptr, store_was_there = true; }
+  /// The fix that moves it with the particles, or nullptr; and where it is made.
+  LAMMPS_NS::FixContactStore *store() const { return store_of_memory.get(); }
+  ContactStore &contact_store() { return store_of_memory; }
   LargeBodies &bodies() { return large_bodies; }
   const Integrators &integrators() const { return movers; }
   Weights &weights() { return gravity; }
@@ -140,8 +134,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   // the pair style
   AttachedPair attached;
   ContactMemory contact_memory;    // goes after those who have something in it
-  LAMMPS_NS::FixContactStore *contact_store = nullptr;
-  bool store_was_there = false;
+  ContactStore store_of_memory;
   Talus::PairCoeffs pair_coeffs;
   std::optional<int> prepared;    // revision of pair_coeffs that the pipeline has
   std::string announced;          // last description of the laws in the log
