@@ -11,11 +11,13 @@
 #define LMP_COMM_PROXY_H
 
 #include "comm/comm_reach.h"
+#include "comm/ghost_cutoff.h"
 #include "system/exchange/direct_exchange.h"
 
 #include "comm_tiled.h"
 
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -41,7 +43,12 @@ template <class Base> class CommProxy : public Base {
   void setup() override
   {
     direct.finish();
-    Base::setup();
+    if constexpr (std::is_same_v<Base, CommTiled>) {
+      const Talus::GhostCutoff reach(this->lmp, *this->neighbor);
+      Base::setup();
+    } else {
+      Base::setup();
+    }
   }
   void set_proc_grid(int outflag = 1) override
   {

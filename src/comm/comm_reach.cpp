@@ -2,6 +2,7 @@
 
 #include "comm/comm_reach.h"
 
+#include "comm/ghost_cutoff.h"
 #include "exchange/exchange_plan.h"
 #include "exchange/exchange_tags.h"
 #include "system/step/granular_system.h"
@@ -36,7 +37,10 @@ Place wrapped(int place, int places)
 
 void CommReach::setup()
 {
-  CommBrick::setup();
+  {
+    const GhostCutoff reach(lmp, *neighbor);
+    CommBrick::setup();
+  }
   by_reach =
       is_few_domains() && GranularSystem::of(lmp)->exchange().needs_beyond_contacts().empty();
   if (!by_reach) return;
@@ -78,7 +82,7 @@ ProxyReach CommReach::reach()
 {
   const auto system = GranularSystem::of(lmp);
   const double unit = system->range().radii().largest(),
-               skin = neighbor->skin + system->range().largest_pulloff_distance();
+               skin = system->lists().skin() + system->range().largest_pulloff_distance();
   ProxyReach::ClassRadii classes = ProxyReach::classes_of(atom->nlocal, atom->radius, unit);
   MPI_Allreduce(MPI_IN_PLACE, classes.data(), ProxyReach::num_classes, MPI_DOUBLE, MPI_MAX, world);
   return {domains(), classes, unit, skin};

@@ -232,7 +232,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   bool is_stale(double moved) const
   {
     return !is_listed || this->atom->nlocal != owned_then ||
-           (is_bounded() && !(moved + moved_then + displacement() <= this->neighbor->skin));
+           (is_bounded() && !(moved + moved_then + displacement() <= system->lists().skin()));
   }
   void list_if_needed()
   {
@@ -246,7 +246,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     constexpr double anywhere = 1.0e100;
     const ParticleState particles = system->step().particles();
     contacts.find_candidates(surface(), particles, this->atom->mask, this->groupbit,
-                             is_bounded() ? this->neighbor->skin : anywhere, this->comm->nthreads);
+                             is_bounded() ? system->lists().skin() : anywhere, this->comm->nthreads);
     find_masses();
     are_listed(particles);
     is_listed = true;

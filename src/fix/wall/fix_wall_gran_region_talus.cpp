@@ -34,7 +34,7 @@ void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
 {
   if (!wall.is_dynamic()) return;
   wall.are_listed(BodyCandidates::bounds_of_search(
-      BodyFrame{}, particles, atom->mask, groupbit, neighbor->skin,
+      BodyFrame{}, particles, atom->mask, groupbit, system->lists().skin(),
       contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
 }
 

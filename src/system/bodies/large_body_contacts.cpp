@@ -33,7 +33,7 @@ void LargeBody::list_particles()
   const int *mask = mask_of_spheres();
   if (MeshShape *const mesh = moving_mesh()) mesh->settle(system.shapes() != nullptr);
   if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
-  contacts.find_candidates(*body_shape, frame(), particles, mask, group_bits(), neighbor->skin,
+  contacts.find_candidates(*body_shape, frame(), particles, mask, group_bits(), system.lists().skin(),
                            comm->nthreads);
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     change_order_of_histories();
@@ -75,7 +75,7 @@ Eigen::AlignedBox3d LargeBody::bounds_of_focus(const ParticleState &particles, c
   if (system.shapes())
     return {Eigen::Vector3d::Constant(-everywhere), Eigen::Vector3d::Constant(everywhere)};
   return BodyCandidates::bounds_of_search(
-      frame(), particles, mask, group_bits(), neighbor->skin,
+      frame(), particles, mask, group_bits(), system.lists().skin(),
       contacts.largest_pulloff_distance(particles, mask, group_bits()));
 }
 

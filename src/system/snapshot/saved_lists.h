@@ -12,7 +12,7 @@
 #define TALUS_SYSTEM_SNAPSHOT_SAVED_LISTS_H
 
 #include "contact/contact_pipeline.h"
-#include "system/step/made_lists.h"
+#include "system/step/neighbor_lists.h"
 
 #include "lmptype.h"
 #include "pointers.h"
@@ -63,10 +63,11 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   void run_hooks_and_build() const;
 
   GranularSystem &system;
-  MadeLists &made;
+  NeighborLists &made;
   std::shared_ptr<const ContactPipeline::Lists>
       pairs;    ///< between spheres; those with shapes are found anew
   LAMMPS_NS::bigint number = 0, step = -1;
+  NeighborLists::Choice skin;
   Decomposition decomposition;
   int comm_style = 0;
   DomainBox box;

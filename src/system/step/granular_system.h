@@ -33,7 +33,7 @@
 #include "system/step/attached_pair.h"
 #include "system/step/definitions.h"
 #include "system/step/integrators.h"
-#include "system/step/made_lists.h"
+#include "system/step/neighbor_lists.h"
 #include "system/step/rebuild.h"
 #include "system/step/step.h"
 #include "system/step/steps_in_records.h"
@@ -95,7 +95,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::RunMonitor &run_monitor() { return monitors; }
   ExchangeSwitch &exchange() { return exchange_switch; }
   StepsInRecords &steps_in_records() { return record_steps; }
-  MadeLists &made_lists() { return lists; }
+  NeighborLists &lists() { return neighbor_lists; }
   Step &step() { return step_of_run; }
   Rebuild &rebuild() { return rebuild_of_lists; }
   /// With what the last run was set up.
@@ -156,7 +156,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   std::unique_ptr<ShapedParticles> shaped;
   Weights gravity;
   StepsInRecords record_steps;
-  MadeLists lists;
+  NeighborLists neighbor_lists;
   Definitions set_up_with;
   ExternalLoads loads_of_others;
   Step step_of_run;

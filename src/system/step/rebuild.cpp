@@ -61,7 +61,7 @@ void Rebuild::renumber_pairs()
                "rank: use more machines",
                system.pair_style().name(), atom->nlocal, atom->nghost);
   }
-  system.made_lists().are_new();
+  system.lists().are_new();
   system.weights().find_weightless(contacts());
   system.store()->pairs_are_numbered(contacts().particle_order());
   timer->stamp(Timer::NEIGH);
@@ -86,6 +86,7 @@ void Rebuild::find_pairs()
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   NeighborView found = parts.neighbors.find(system.pair_style().get()->list,
                                             system.range().largest_pulloff_distance());
+  system.lists().count(found);
   if (system.shapes()) found = without_shapes(found);
   contacts().set_pairs({atom->nlocal, system.store()->all_keys(), tags, atom->type}, found);
   parts.neighbors.release();

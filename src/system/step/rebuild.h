@@ -13,7 +13,7 @@
 #include "history/history_store.h"
 #include "system/contacts/neighbor_source.h"
 #include "system/contacts/run_contacts.h"
-#include "system/step/made_lists.h"
+#include "system/step/neighbor_lists.h"
 
 #include "pointers.h"
 
