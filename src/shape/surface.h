@@ -7,9 +7,11 @@
 #define TALUS_SHAPE_SURFACE_H
 
 #include "base/vector3.h"
+#include "body/shape/inward_wall.h"
 #include "shape/geometry.h"
 
 #include <memory>
+#include <vector>
 
 namespace Talus {
 
@@ -35,6 +37,7 @@ struct RoundSurface : Geometry {
 /// The inside of a body, see SurfaceVisitor::vessel().
 struct VesselSurface : Geometry {
   const LargeBodyShape *body;
+  std::vector<InwardWall> walls;    ///< of it
 };
 
 struct MeshSurface : Geometry {

@@ -49,10 +49,11 @@ class BodySurfaces::Listing final : public SurfaceVisitor {
     surface.body = &body;
     add(surface);
   }
-  void vessel(const LargeBodyShape &body) override
+  void vessel(const LargeBodyShape &body, const std::vector<InwardWall> &walls) override
   {
     VesselSurface surface;
     surface.body = &body;
+    surface.walls = walls;
     add(surface);
   }
   void mesh(std::shared_ptr<const MeshShape> mesh) override

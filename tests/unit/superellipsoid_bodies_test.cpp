@@ -12,6 +12,7 @@
 #include "shape/superellipsoid/superellipsoid.h"
 #include "shape/surface.h"
 #include "shaped/shape_list.h"
+#include "touched_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -258,8 +259,7 @@ TEST(SuperellipsoidBodies, inside_of_drums_cones_and_balls)
        }}};
   ShapeContacts contacts;
   for (const Wall &wall : walls) {
-    VesselSurface vessel;
-    vessel.body = wall.body;
+    const VesselSurface vessel = inside_of(*wall.body);
     int touching = 0;
     for (int k = 0; k < 240; k++) {
       const Superellipsoid &a = particles()[k % particles().size()];
@@ -288,8 +288,7 @@ TEST(SuperellipsoidBodies, inside_of_drums_cones_and_balls)
 TEST(SuperellipsoidBodies, a_needle_across_a_pipe_touches_with_both_ends)
 {
   const Frustum pipe({0, 0, 0}, {0, 0, 1}, 1.0, 1.0, 9.0, true);
-  VesselSurface vessel;
-  vessel.body = &pipe;
+  const VesselSurface vessel = inside_of(pipe);
   const Superellipsoid needle({0.95, 0.1, 0.1}, 2.0, 2.0);
   ShapeContacts contacts;
   // off the axis by d: the ends are at the wall where d^2 + .95^2 = 1

@@ -8,6 +8,7 @@
 #include "body/shape/ball.h"
 #include "body/shape/frustum.h"
 #include "body/shape/mesh_shape.h"
+#include "body/shape/surface_visitor.h"
 #include "convex_bodies.h"
 #include "shape/mesh_features.h"
 #include "shape/superellipsoid/superellipsoid.h"
@@ -63,10 +64,28 @@ inline Touched frustum(double low, double high, double middle, double size)
   round.body = body.get();
   return {low == high ? "cylinder" : "cone", std::make_shared<RoundSurface>(round), {}, body};
 }
+/// The inside of a body that has one.
+inline VesselSurface inside_of(const LargeBodyShape &body)
+{
+  struct Walls : SurfaceVisitor {
+    VesselSurface surface;
+    void flat(const Vector3<double> &, const Vector3<double> &, bool, int) override {}
+    void box(const Vector3<double> &, const Vector3<double> &) override {}
+    void ball(const Vector3<double> &, double) override {}
+    void frustum(const Frustum &) override {}
+    void vessel(const LargeBodyShape &of, const std::vector<InwardWall> &walls) override
+    {
+      surface.body = &of;
+      surface.walls = walls;
+    }
+    void mesh(std::shared_ptr<const MeshShape>) override {}
+  } seen;
+  body.visit_surfaces(seen);
+  return seen.surface;
+}
 inline Touched vessel(const std::string &name, std::shared_ptr<const LargeBodyShape> body)
 {
-  VesselSurface inside;
-  inside.body = body.get();
+  const VesselSurface inside = inside_of(*body);
   return {name, std::make_shared<VesselSurface>(inside), {}, body};
 }
 inline Touched mesh(const std::string &name, const std::vector<Triangle> &triangles,

@@ -56,7 +56,8 @@ void Ball::tessellate(const Eigen::AlignedBox3d & /*visible*/,
 void Ball::visit_surfaces(SurfaceVisitor &visitor) const
 {
   if (inside)
-    visitor.vessel(*this);
+    visitor.vessel(*this,
+                   {{InwardWall::Kind::BALL, 0, middle, {0.0, 0.0, 1.0}, {}, 1.0, 0.0, size}});
   else
     visitor.ball(middle, size);
 }

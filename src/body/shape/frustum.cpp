@@ -224,9 +224,24 @@ void Frustum::visit_surfaces(SurfaceVisitor &visitor) const
 {
   if (open) return;    // touched from both sides
   if (inside)
-    visitor.vessel(*this);
+    visitor.vessel(*this, walls());
   else
     visitor.frustum(*this);
+}
+
+std::vector<InwardWall> Frustum::walls() const
+{
+  InwardWall lateral{InwardWall::Kind::ROUND, LATERAL, middle, axis, side};
+  lateral.radius = 0.5 * (low + high);
+  lateral.normal_away = normal_rho;
+  lateral.normal_along = normal_s;
+  std::vector<InwardWall> all{lateral};
+  for (const int end : {0, 1}) {
+    const Rim at = rim(end);
+    if (!infinite && at.radius > 0.0)
+      all.push_back({InwardWall::Kind::FLAT, end ? HIGH_CAP : LOW_CAP, at.center, at.axis});
+  }
+  return all;
 }
 
 }    // namespace Talus

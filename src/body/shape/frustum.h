@@ -3,7 +3,10 @@
 #ifndef TALUS_BODY_SHAPE_FRUSTUM_H
 #define TALUS_BODY_SHAPE_FRUSTUM_H
 
+#include "body/shape/inward_wall.h"
 #include "body/shape/large_body_shape.h"
+
+#include <vector>
 
 namespace Talus {
 
@@ -69,6 +72,7 @@ class Frustum : public LargeBodyShape {
   /// Of the lateral surface alone.
   void from_lateral(const Meridian &m, double &rho, double &s) const;
 
+  std::vector<InwardWall> walls() const;
   bool touches_open(const Vector3<double> &center, double radius, SurfaceContact &contact) const;
   bool touches_from_outside(const Vector3<double> &center, double radius,
                             SurfaceContact &contact) const;

@@ -4,8 +4,10 @@
 #define TALUS_BODY_SHAPE_SURFACE_VISITOR_H
 
 #include "base/vector3.h"
+#include "body/shape/inward_wall.h"
 
 #include <memory>
+#include <vector>
 
 namespace Talus {
 
@@ -27,8 +29,8 @@ class SurfaceVisitor {
   /// A cylinder or cone from outside.
   virtual void frustum(const Frustum &body) = 0;
   /// The inside of a body whose walls are flat or curved inward, such as a drum or a cone:
-  /// find_contacts() finds the walls near a sphere of any radius.
-  virtual void vessel(const LargeBodyShape &body) = 0;
+  /// find_contacts() finds those near a sphere of any radius.
+  virtual void vessel(const LargeBodyShape &body, const std::vector<InwardWall> &walls) = 0;
   virtual void mesh(std::shared_ptr<const MeshShape> mesh) = 0;
 
  protected:

@@ -1,19 +1,21 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Superellipsoids inside of a body. How far a point is behind a wall that is flat or curved inward is a convex function
-// of the point, so that from any point of the shape the way to that which is outermost along the direction of the wall
-// leads outward. It ends where the normals of both are the same and the shape is at least as curved as the wall: in a
-// place that is touched, of which there may be several if the shape is flatter than the wall elsewhere. Near by, the
-// steps are those of Newton's method.
+// of the point. At a flat wall the outermost point of the shape is known, and round ones have one angle (round_wall.h).
 //
-// Shapes are flattest at the ends of their axes, and symmetric; so that one place at most is looked for in each octant
-// of a shape, from its middle. The way outward does not go beyond a place: if it leaves the octant there is none. For
-// most octants the first step shows that, which is made for all eight at once.
+// In a ball, from any point of the shape the way to that which is outermost along the direction of the wall leads
+// outward. It ends where the normals of both are the same and the shape is at least as curved as the wall: in a
+// place that is touched, of which there may be several if the shape is flatter than the wall elsewhere. Near by, the
+// steps are those of Newton's method. Shapes are flattest at the ends of their axes, and symmetric; so that one place at
+// most is looked for in each octant of a shape, from its middle. The way outward does not go beyond a place: if it leaves
+// the octant there is none. For most octants the first step shows that, which is made for all eight at once.
 
 #include "body/shape/large_body_shape.h"
+#include "shape/superellipsoid/round_wall.h"
 #include "shape/superellipsoid/superellipsoid_contacts.h"
 #include "shape/superellipsoid/touch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace Talus {
@@ -21,77 +23,57 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Where a wall is, as seen from a point: the unit vector toward it, and how far the point is behind it.
-struct Outward {
-  Vector direction;
-  double behind;
-};
-
-/// One of the walls of a body.
-class Wall {
- public:
-  Wall(const LargeBodyShape &vessel, int wall_part, double far_enough) :
-      body(vessel), part(wall_part), reach(far_enough)
-  {
-  }
-  /// false: it does not act there.
-  bool look(const Vector &x, Outward &seen) const
-  {
-    SurfaceContact found[LargeBodyShape::max_contacts];
-    const int count = body.find_contacts(x, reach, {nullptr, nullptr}, found);
-    for (int k = 0; k < count; k++)
-      if (found[k].part == part) {
-        seen = {-found[k].normal, found[k].overlap - reach};
-        return true;
-      }
-    return false;
-  }
-
- private:
-  const LargeBodyShape &body;
-  const int part;
-  const double reach;
-};
-
 /// A point of the shape, outermost along a direction, and the wall there.
 struct Place {
   Vector normal, x;    ///< in the frame of the body
   Superellipsoid::Point of_shape;
-  Outward wall;
+  InwardWall::Outward wall;
   Vector lacking() const { return wall.direction - normal; }
 };
 
+Place outermost(const PlacedSuperellipsoid &a, const InwardWall &wall, const Vector &normal)
+{
+  Place place;
+  place.normal = normal;
+  place.of_shape = a.geometry.at_normal(a.pose.direction_in_body(normal));
+  place.x = a.pose.point_in_space(place.of_shape.place);
+  place.wall = wall.from(place.x);
+  return place;
+}
+
 class Climb {
  public:
-  Climb(const PlacedSuperellipsoid &placed, const Wall &touched) :
+  Climb(const PlacedSuperellipsoid &placed, const InwardWall &touched) :
       a(placed), wall(touched), size(placed.geometry.bounding_radius())
   {
   }
 
-  /// Outward from where the wall is in that direction. false: it does not act.
-  bool from(const Vector &direction, Place &place) const
+  /// Outward from where the wall is in that direction.
+  Place from(const Vector &direction) const
   {
     constexpr int most_steps = 200;
     constexpr double enough = 4.0e-16;
-    if (!outermost(direction, place)) return false;
+    Place place = outermost(a, wall, direction);
     for (int step = 0; step < most_steps; step++) {
       const Vector lacking = place.lacking();
       const double square = dot(lacking, lacking);
       if (square <= enough * enough) break;
-      Place next;
       Vector turned;
-      if (newton(place, turned) && outermost(turned, next) && is_better(next, place, square)) {
-        const Vector way = next.x - place.x;
-        place = next;
-        if (dot(way, way) <= 1.0e-24 * size * size) break;
-        continue;
+      if (newton(place, turned)) {
+        const Place next = outermost(a, wall, turned);
+        if (is_better(next, place, square)) {
+          const Vector way = next.x - place.x;
+          place = next;
+          if (dot(way, way) <= 1.0e-24 * size * size) break;
+          continue;
+        }
       }
-      if (!outermost(place.wall.direction, next)) return false;
+      const Place next = outermost(a, wall, place.wall.direction);
       const bool is_farther = next.wall.behind > place.wall.behind;
       if (is_farther || dot(next.lacking(), next.lacking()) < square) place = next;
       if (!is_farther) break;    // but for rounding it is there
     }
-    return true;
+    return place;
   }
   /// The shape is more curved than the wall.
   bool is_summit(const Place &place) const
@@ -101,13 +83,6 @@ class Climb {
   }
 
  private:
-  bool outermost(const Vector &normal, Place &place) const
-  {
-    place.normal = normal;
-    place.of_shape = a.geometry.at_normal(a.pose.direction_in_body(normal));
-    place.x = a.pose.point_in_space(place.of_shape.place);
-    return wall.look(place.x, place.wall);
-  }
   bool is_better(const Place &next, const Place &place, double square) const
   {
     const double gain = next.wall.behind - place.wall.behind, rounding = 1.0e-14 * size;
@@ -117,16 +92,11 @@ class Climb {
   /* With curvatures K of the shape and W of the wall, dn = K dx, and both normals agree after (K - W) dx = lacking. */
   bool newton(const Place &place, Vector &turned) const
   {
-    const double part = 1.0e-6 * size;
     const Vector &n = place.normal;
     Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
     s = (1.0 / length(s)) * s;
     const Vector t = cross(n, s), lacking = place.lacking();
-    Outward along_s, along_t;
-    if (!wall.look(place.x + part * s, along_s) || !wall.look(place.x + part * t, along_t))
-      return false;
-    const Vector by_s = (1.0 / part) * (along_s.direction - place.wall.direction),
-                 by_t = (1.0 / part) * (along_t.direction - place.wall.direction);
+    const Vector by_s = wall.turn(place.x, s), by_t = wall.turn(place.x, t);
     const Vector own_s = a.pose.direction_in_body(s), own_t = a.pose.direction_in_body(t);
     const double ss = place.of_shape.curvature(own_s, own_s),
                  st = place.of_shape.curvature(own_s, own_t),
@@ -143,33 +113,29 @@ class Climb {
   }
 
   const PlacedSuperellipsoid &a;
-  const Wall &wall;
+  const InwardWall &wall;
   const double size;
 };
 
-/// The places of one wall.
+/// The places of one ball.
 class Places {
  public:
-  Places(const PlacedSuperellipsoid &placed, const Wall &touched) :
+  Places(const PlacedSuperellipsoid &placed, const InwardWall &touched) :
       a(placed), half(placed.geometry.half_axes()), wall(touched), climb(placed, touched)
   {
   }
 
   void find(const Vector &from_center)
   {
-    Place first;
-    if (!climb.from(from_center, first)) return;
-    if (is_flat(from_center)) return add(first);
+    const Place first = climb.from(from_center);
     if (climb.is_summit(first)) {
       add(first);
       leave_out_octants_at(first.of_shape.place);
     }
     Vector direction[8];
     const unsigned climbing = first_steps(direction);
-    for (int octant = 0; octant < 8; octant++) {
-      Place place;
-      if ((climbing >> octant & 1U) && climb.from(direction[octant], place)) add(place);
-    }
+    for (int octant = 0; octant < 8; octant++)
+      if (climbing >> octant & 1U) add(climb.from(direction[octant]));
     if (!count) add(first);
   }
   template <class Visit> void each(Visit visit) const
@@ -190,19 +156,6 @@ class Places {
       if (length(found[k].x - place.x) < near_by) return;
     found[count++] = place;
   }
-  /// It has one normal.
-  bool is_flat(const Vector &normal) const
-  {
-    for (const double side : {1.0, -1.0})
-      for (const Vector &end : {Vector{side * half.x, 0.0, 0.0}, Vector{0.0, side * half.y, 0.0},
-                                Vector{0.0, 0.0, side * half.z}}) {
-        Outward seen;
-        if (!wall.look(a.pose.point_in_space(end), seen)) continue;
-        const Vector turned = seen.direction - normal;
-        if (dot(turned, turned) >= 1.0e-24) return false;
-      }
-    return true;
-  }
   void leave_out_octants_at(const Vector &x)
   {
     for (int octant = 0; octant < 8; octant++) left_out[octant] = is_in(octant, x);
@@ -221,14 +174,12 @@ class Places {
     unsigned seen = 0;
     for (int octant = 0; octant < 8; octant++) {
       const Vector to = 0.5 * signs(octant);
-      Outward at_wall;
       own[0][octant] = 1.0;
-      if (left_out[octant] ||
-          !wall.look(a.pose.point_in_space({to.x * half.x, to.y * half.y, to.z * half.z}), at_wall))
-        continue;
+      if (left_out[octant]) continue;
       seen |= 1U << octant;
-      direction[octant] = at_wall.direction;
-      const Vector n = a.pose.direction_in_body(at_wall.direction);
+      direction[octant] =
+          wall.from(a.pose.point_in_space({to.x * half.x, to.y * half.y, to.z * half.z})).direction;
+      const Vector n = a.pose.direction_in_body(direction[octant]);
       own[0][octant] = n.x;
       own[1][octant] = n.y;
       own[2][octant] = n.z;
@@ -242,7 +193,7 @@ class Places {
 
   const PlacedSuperellipsoid &a;
   const Vector half;
-  const Wall &wall;
+  const InwardWall &wall;
   const Climb climb;
   Place found[9];
   int count = 0;
@@ -266,24 +217,100 @@ void add_contact(const PlacedSuperellipsoid &a, const Place &place, int part,
   contacts.points.push_back(contact);
 }
 
+/* Of a ball around the shape: the support function of the shape as seen from its center is sublinear, so that within a
+   triangle of directions it is below the greatest value over the distance of the plane of the three from zero. Seven triangles
+   cover the directions in which the shape is seen. */
+
+bool may_leave(const PlacedSuperellipsoid &a, const InwardWall &ball, const Vector &direction)
+{
+  constexpr double cosine[7] = {1.0,
+                                0.62348980185873353,
+                                -0.22252093395631440,
+                                -0.90096886790241913,
+                                -0.90096886790241913,
+                                -0.22252093395631440,
+                                0.62348980185873353};
+  constexpr double sine[7] = {0.0,
+                              0.78183148246802981,
+                              0.97492791218182361,
+                              0.43388373911755812,
+                              -0.43388373911755812,
+                              -0.97492791218182361,
+                              -0.78183148246802981};
+  constexpr double over_half = 1.1099162641747424;    // 1 / cos(pi / 7)
+  const Vector from_center = a.pose.position - ball.point;
+  const double size = a.geometry.bounding_radius(), distance = length(from_center);
+  if (!(distance > 1.5 * size)) return true;
+  const double aside = over_half * size / std::sqrt(distance * distance - size * size);
+  const Vector &n = direction;
+  Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
+  s = (1.0 / length(s)) * s;
+  const Vector t = cross(n, s);
+  const double inverse = 1.0 / std::sqrt(1.0 + aside * aside);
+  Vector seen[lanes];
+  for (int k = 0; k < 7; k++)
+    seen[k] = inverse * (n + (aside * cosine[k]) * s + (aside * sine[k]) * t);
+  seen[7] = n;
+  alignas(64) double own[3][lanes], outward[lanes];
+  for (int k = 0; k < lanes; k++) {
+    const Vector m = a.pose.direction_in_body(seen[k]);
+    own[0][k] = m.x;
+    own[1][k] = m.y;
+    own[2][k] = m.z;
+    outward[k] = dot(seen[k], from_center);
+  }
+  const Vec8 height = a.geometry.formulas()
+                          .at_normal(Vector3<Vec8>{load8(own[0]), load8(own[1]), load8(own[2])})
+                          .height;
+  double most = 0.0;
+  for (int k = 0; k < lanes; k++) most = std::max(most, outward[k] + height[k]);
+  const Vector across = cross(seen[0] - seen[7], seen[1] - seen[7]);
+  return most * length(across) >= ball.radius * std::fabs(dot(across, seen[7]));
+}
+
+void touch_wall(const PlacedSuperellipsoid &a, const InwardWall &wall, const Vector &direction,
+                ShapeContacts &contacts)
+{
+  const auto add = [&](const Place &place) {
+    if (place.wall.behind > 0.0) add_contact(a, place, wall.part, contacts);
+  };
+  if (wall.kind == InwardWall::Kind::FLAT) {
+    add(outermost(a, wall, direction));
+  } else if (wall.kind == InwardWall::Kind::ROUND) {
+    Vector normals[RoundWall::most_places];
+    const int count = RoundWall(a, wall).find(normals);
+    for (int k = 0; k < count; k++) add(outermost(a, wall, normals[k]));
+  } else if (may_leave(a, wall, direction)) {
+    Places places(a, wall);
+    places.find(direction);
+    places.each(add);
+  }
+}
+
 }    // namespace
+
+/* A shape that is far behind a wall is not in the body. The deepest wall comes first. */
 
 bool superellipsoid_and_vessel(const PlacedSuperellipsoid &a, const Placed<VesselSurface> &b,
                                const CollisionRequest & /*request*/, ShapeContacts &contacts)
 {
+  struct Near {
+    const InwardWall *wall;
+    InwardWall::Outward seen;
+  };
   contacts.clear();
-  const LargeBodyShape &body = *b.geometry.body;
-  const double size = a.geometry.bounding_radius(), reach = 4.0 * size;
-  if (body.distance_bound(a.pose.position) >= size) return false;
-  SurfaceContact around[LargeBodyShape::max_contacts];
-  const int count = body.find_contacts(a.pose.position, reach, {nullptr, nullptr}, around);
-  for (int k = 0; k < count; k++) {
-    if (reach - around[k].overlap >= size) continue;
-    const Wall wall(body, around[k].part, reach);
-    Places places(a, wall);
-    places.find(-around[k].normal);
-    places.each([&](const Place &place) { add_contact(a, place, around[k].part, contacts); });
+  const double size = a.geometry.bounding_radius(), too_far = 4.0 * size;
+  Near near[LargeBodyShape::max_contacts];
+  int count = 0;
+  for (const InwardWall &wall : b.geometry.walls) {
+    const InwardWall::Outward seen = wall.from(a.pose.position);
+    if (seen.behind >= too_far) return false;
+    if (seen.behind > -size) near[count++] = {&wall, seen};
   }
+  std::stable_sort(near, near + count, [](const Near &one, const Near &other) {
+    return one.seen.behind > other.seen.behind;
+  });
+  for (int k = 0; k < count; k++) touch_wall(a, *near[k].wall, near[k].seen.direction, contacts);
   return !contacts.points.empty();
 }
 
