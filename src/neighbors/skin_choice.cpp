@@ -9,7 +9,7 @@ namespace Talus {
 namespace {
 
 // Over the cost of a candidate in a step, from gases of 2 to 30 % solids with skins of .15 to .85 diameters.
-constexpr double cost_of_particle = 90.0, cost_in_list = 6.0;
+constexpr double cost_of_particle = 45.0, cost_in_list = 5.0;
 // A list that is longer by this number of candidates for each particle takes about a tenth of its memory more.
 constexpr double most_candidates_added = 3.5;
 constexpr int steps_per_doubling = 4;
