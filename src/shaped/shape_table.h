@@ -74,6 +74,11 @@ class ShapeTable {
   {
     return of(type) ? of(type)->shape().bounding_radius() : 0.0;
   }
+  /// Of the largest sphere inside; `radius`: of a sphere.
+  double radius_inside(int type, double radius) const
+  {
+    return of(type) ? of(type)->shape().inscribed_radius() : radius;
+  }
   bool is_empty() const { return shapes.empty(); }
   /// What finds the contacts of particles of two types; nothing of two spheres.
   const Collisions::Collision &collision(int i, int j) const

@@ -2,7 +2,7 @@
 //
 // Contacts between particles of which at least one has a shape. Knows nothing of LAMMPS.
 //
-//   at a rebuild   save() (if the old pairs are current), set_pairs(), restore()
+//   at a rebuild   save() or save_in_periodic_box() (if points are current), set_pairs(), restore()
 //   every step     compute()
 //
 // The first body of a pair is the particle with the lower ID, on all ranks and for ever: so
@@ -14,10 +14,7 @@
 #ifndef TALUS_SHAPED_SHAPED_PAIRS_H
 #define TALUS_SHAPED_SHAPED_PAIRS_H
 
-#include "base/state_exchange.h"
-#include "history/contact_lists.h"
-#include "laws/deepest_contact.h"
-#include "shaped/point_batch.h"
+#include "shaped/contact_points.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_view.h"
 #include "shaped/solid.h"
@@ -26,12 +23,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <vector>
 
 namespace Talus {
 
-class ShapedPairs {
+class ShapedPairs : public ContactPoints {
  public:
   explicit ShapedPairs(const ShapeTable &shape_table) : shapes(shape_table) {}
 
@@ -42,12 +38,10 @@ class ShapedPairs {
   /// Each pair finds its points in the list of one of its particles that is owned. `name_of`: the IDs
   /// that particles had when histories were saved, 0 of new ones.
   void restore(const ContactLists &from, const std::function<std::int64_t(int)> &name_of);
-  /// Adds the histories of points to the lists of all owned particles: with the signs of the first
-  /// one, identified by ID of the partner and feature. Where periodic borders are, the ranks on
-  /// both sides know a contact from positions that differ by rounding: the rank of the first
-  /// particle decides, and tells the others by messages[rank].
+  /// As save(). Where periodic borders are, the ranks on both sides know a contact from positions
+  /// that differ by rounding: the rank of the first particle decides, and tells the others by
+  /// messages[rank].
   using Messages = std::map<int, std::vector<double>>;
-  void save(ContactLists &to) const;
   void save_in_periodic_box(ContactLists &to, int this_rank,
                             const std::function<int(int ghost)> &owner_of,
                             Messages &messages) const;
@@ -64,7 +58,11 @@ class ShapedPairs {
   void compute(const ShapedView &view, const LawTable &laws, const Step &step);
 
   /// For snapshots: points of all pairs, which are the same when they are restored.
-  void exchange_state(StateExchange &x) { x(list, results, chunks, solids, dt); }
+  void exchange_state(StateExchange &x)
+  {
+    ContactPoints::exchange_state(x);
+    x(searches, results, solids, dt);
+  }
 
   /// Of the last compute(): visit(i, j, force on i, i is owned, j is owned) for pairs that touch.
   template <class Visit> void for_each_force(Visit visit) const
@@ -72,17 +70,7 @@ class ShapedPairs {
     for (std::size_t p = 0; p < list.size(); p++)
       if (results[p].points) visit(list[p].first, list[p].second, results[p].force);
   }
-  /// visit(i, j, point) for each contact point of the last compute().
-  template <class Visit> void for_each_point(Visit visit) const
-  {
-    for (const Chunk &chunk : chunks)
-      for (std::size_t n = 0; n < chunk.points.size(); n++) {
-        const Pair &pair = list[chunk.pair_of_point[n]];
-        visit(pair.first, pair.second, chunk.points[n]);
-      }
-  }
-
-  /// visit(contact) for the same. `laws`: of that step.
+  /// visit(contact) for each contact point of the same. `laws`: of that step.
   using VisitContact = ComputedContacts::VisitContact;
   void for_each_contact(const LawTable &laws, const VisitContact &visit) const;
 
@@ -94,26 +82,21 @@ class ShapedPairs {
   };
   CoreOverlap deepest_core_overlap() const;
 
-  /// The deepest contact since set_pairs(), if it is deeper than DeepestContact::watched; otherwise that.
-  DeepestContact deepest_since_set() const;
-
-  bool is_empty() const { return list.empty(); }
-  /// Local indices of all particles that have pairs, ascending.
-  /// Pairs that touch, and contact points, of the last compute(); what two ranks have counts half.
-  double count_contacts() const;
-  double count_points() const;
-  /// Of all pairs.
-  double count_candidates() const;
+  /// Of the last compute(), what two ranks have counts half: all pairs, those that touch, and contact
+  /// points.
+  struct Count {
+    double pairs = 0.0, contacts = 0.0, points = 0.0;
+  };
+  Count count() const;
   double memory_usage() const;
 
  private:
-  struct Pair {
-    int first, second;      ///< local indices
-    int row;                ///< of the table of laws
-    double size;            ///< the smaller radius of the largest sphere inside
-    std::int64_t tag[2];    ///< IDs
+  /// How the contacts of a pair are found.
+  struct Search {
+    int row;    ///< of the table of laws
     Collisions::Collision collision;
     SeparatingDirection direction{};
+    double core_depth = 0.0, core_ratio = 0.0;    ///< largest since set_pairs()
   };
   struct Result {
     Vector3<double> force, torque_first, torque_second;    ///< on the first particle; about centers
@@ -124,50 +107,24 @@ class ShapedPairs {
     int pair;
     bool second;
   };
-  struct Chunk {
-    int begin, end;    ///< pairs
-    std::vector<PointContact> points{}, before{};
-    std::vector<int> pair_of_point{}, pair_before{};
-    CoreOverlap cores{};                                ///< deepest since set_pairs()
-    DeepestContact deepest{DeepestContact::watched};    ///< the same
-  };
-  /// Of a thread, for one chunk after the other.
-  struct Scratch {
-    PointBatch batch;
-    std::vector<ShapeContacts> found;    ///< by pair of the chunk
-    std::vector<CollisionJob> jobs;
-    std::vector<Collisions::OfMany> of_job;
-  };
 
-  template <class Visit> void for_each_point_of_pair(Visit visit) const;
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
   void place_solids(const ShapedView &view, int threads);
-  double radius_inside(const ShapedView &view, int i) const;
-  void compute_chunk(const ShapedView &view, const LawTable &laws, const Step &step, Chunk &chunk,
-                     Scratch &with);
   void find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with);
-  void take_points(const ShapedView &view, const Step &step, Chunk &chunk, int pair,
-                   const ShapeContacts &found, std::size_t &old);
-  void account(WorkAccount &to) const;
+  void take_pair(const ShapedView &view, double weight_of_changes, Chunk &chunk, int p,
+                 const ShapeContacts &found);
   void sum_points(const Chunk &chunk);
   void add_to_particles(const ShapedView &view, int threads) const;
-  double share(const Pair &pair) const
-  {
-    return pair.first < owned && pair.second < owned ? 1.0 : 0.5;
-  }
 
   const ShapeTable &shapes;
-  int owned = 0;
-  double dt = 0.0;    ///< of the last compute()
-  std::vector<Pair> list;
-  std::vector<Result> results;
-  std::vector<Chunk> chunks;
-  std::vector<int> particles;     ///< owned ones that have pairs
-  std::vector<int> first_side;    ///< of each of these in `sides`, and one more
+  double dt = 0.0;                 ///< of the last compute()
+  std::vector<Search> searches;    ///< by pair
+  std::vector<Result> results;     ///< the same
+  std::vector<int> particles;      ///< owned ones that have pairs
+  std::vector<int> first_side;     ///< of each of these in `sides`, and one more
   std::vector<Side> sides;
-  std::vector<int> used;                            ///< all that have pairs, owned or ghosts
-  std::vector<Solid> solids;                        ///< by local index, of those that have pairs
-  std::vector<std::unique_ptr<Scratch>> scratch;    ///< by thread
+  std::vector<int> used;        ///< all that have pairs, owned or ghosts
+  std::vector<Solid> solids;    ///< by local index, of those that have pairs
 };
 
 }    // namespace Talus

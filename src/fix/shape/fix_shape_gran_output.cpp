@@ -38,8 +38,9 @@ std::array<double, FixShapeGran::size_sums> FixShapeGran::sums() const
     mine[3] += momentum.y;
     mine[4] += momentum.z;
   }
-  mine[5] = shapes->pairs().count_contacts();
-  mine[6] = shapes->pairs().count_points();
+  const ShapedPairs::Count pairs = shapes->pairs().count();
+  mine[5] = pairs.contacts;
+  mine[6] = pairs.points;
   MPI_Allreduce(mine.data(), all.data(), size_sums, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }

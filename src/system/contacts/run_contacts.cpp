@@ -187,14 +187,14 @@ double RunContacts::count() const
 {
   const ShapedParticles *shapes = system.shapes();
   return ContactSurvey(system.pipeline()).count_contacts() +
-         (shapes ? shapes->pairs().count_contacts() : 0.0);
+         (shapes ? shapes->pairs().count().contacts : 0.0);
 }
 
 double RunContacts::count_candidates() const
 {
   const ShapedParticles *shapes = system.shapes();
   return ContactSurvey(system.pipeline()).count_candidates() +
-         (shapes ? shapes->pairs().count_candidates() : 0.0);
+         (shapes ? shapes->pairs().count().pairs : 0.0);
 }
 
 DeepestContact RunContacts::deepest() const

@@ -143,10 +143,10 @@ DeepestContact ShapedParticles::deepest_contact() const
 {
   DeepestContact deepest;
   const auto inside = [this](int i) {
-    const ParticleShape *shape = shapes.of(atom->type[i]);
-    return shape ? shape->shape().inscribed_radius() : atom->radius[i];
+    return shapes.radius_inside(atom->type[i], atom->radius[i]);
   };
-  pairs_here.for_each_point([&](int i, int j, const PointContact &point) {
+  pairs_here.for_each_point([&](const ContactPoints::Pair &pair, const PointContact &point) {
+    const int i = pair.first, j = pair.second;
     const double ratio = point.overlap / std::min(inside(i), inside(j));
     if (ratio > deepest.overlap_ratio) deepest = {ratio, i, j};
   });
@@ -155,9 +155,10 @@ DeepestContact ShapedParticles::deepest_contact() const
 
 DeepestInBody ShapedParticles::deepest_in(const LargeBody &body) const
 {
-  const auto wall = walls.find(&body);
-  return wall == walls.end() || !wall->second.points ? DeepestInBody{}
-                                                     : wall->second.points->deepest();
+  const auto found = bodies.find(&body);
+  if (found == bodies.end()) return {};
+  const DeepestContact deepest = found->second.deepest_since_set();
+  return {deepest.overlap_ratio, deepest.i, deepest.j};
 }
 
 }    // namespace Talus

@@ -24,9 +24,9 @@
 #include "exchange/sparse_exchange.h"
 #include "history/contact_memory.h"
 #include "particles/particle_state.h"
+#include "shaped/body_points.h"
 #include "shaped/shape_table.h"
 #include "shaped/shaped_pairs.h"
-#include "shaped/wall_points.h"
 
 #include "pointers.h"
 
@@ -34,7 +34,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -84,7 +83,7 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   // ---- a run, a rebuild, a step; collective
 
   /// A script may have deleted some; histories are in the lists.
-  void forget_bodies() { walls.clear(); }
+  void forget_bodies() { bodies.clear(); }
   /// It is deleted.
   void forget(const LargeBody &body);
   /// "", or why particles with a shape cannot touch the surface of a body.
@@ -134,7 +133,9 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   void move(const ParticleState &particles, int i);
   void send_orientations();
   void tell_pairs(const ContactStep &step) const;
-  void list_particles(const LargeBody &body, WallPoints &points);
+  BodyPoints &points_of(LargeBody &body);
+  BodyPoints &points_with_particles(LargeBody &body);
+  void list_particles(const LargeBody &body, BodyPoints &points);
   static std::int64_t name_of(const LargeBody &body);
   bool in_periodic_box() const;
   void begin_step();
@@ -143,13 +144,7 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   LAMMPS_NS::Fix *fix;
   ShapeTable shapes;
   ShapedPairs pairs_here;
-  struct Wall {
-    std::unique_ptr<BodySurfaces> surfaces;
-    std::unique_ptr<WallPoints> points;
-  };
-  Wall &wall_of(LargeBody &body);
-  WallPoints &points_of(LargeBody &body);
-  std::map<const LargeBody *, Wall> walls;
+  std::map<const LargeBody *, BodyPoints> bodies;    ///< with which they have contacts
   double **quat = nullptr;
   bool orientations_were_set = false;    ///< by a command: ghosts do not know it
   bool is_set_up = false;

@@ -48,32 +48,21 @@ int ShapedParticles::unpack(int i, const double *from)
   return size_orientation;
 }
 
-/* Points are kept by pair as well: in a periodic box a run goes on with those of both sides as they are. A body that
-   was touched by no particle with a shape then has none. */
+/* Points are kept by pair as well: in a periodic box a run goes on with those of both sides as they are. */
 
 void ShapedParticles::exchange_state(StateExchange &x)
 {
   if (atom->nlocal) x.array(quat[0], 4L * atom->nlocal);
   pairs_here.exchange_state(x);
-  for (LargeBody *body : system.bodies().in_order()) {
-    Wall &wall = wall_of(*body);
-    bool has_points = wall.points != nullptr;
-    x(has_points);
-    if (has_points && !wall.points)
-      wall.points = std::make_unique<WallPoints>(shapes, name_of(*body));
-    if (!has_points) wall.points.reset();
-    if (has_points) wall.points->exchange_state(x);
-  }
-  if (!x.restores()) return;
-  orientations_were_set = true;
+  for (LargeBody *body : system.bodies().in_order()) points_of(*body).exchange_state(x);
+  if (x.restores()) orientations_were_set = true;
 }
 
 double ShapedParticles::memory_usage() const
 {
   double bytes = static_cast<double>(size_orientation * sizeof(double)) * atom->nmax +
                  pairs_here.memory_usage() + shapes.memory_usage();
-  for (const auto &[body, wall] : walls)
-    if (wall.points) bytes += wall.points->memory_usage();
+  for (const auto &[body, points] : bodies) bytes += points.memory_usage();
   return bytes;
 }
 

@@ -35,8 +35,7 @@ void ShapedParticles::put_aside(ContactLists &to)
   } else {
     pairs_here.save(to);
   }
-  for (auto &[body, wall] : walls)
-    if (wall.points) wall.points->save(to);
+  for (const auto &[body, points] : bodies) points.save(to);
 }
 
 /* A rank may have put its contacts aside before the others. */
@@ -53,7 +52,7 @@ void ShapedParticles::agree_with_other_ranks()
 
 void ShapedParticles::forget(const LargeBody &body)
 {
-  walls.erase(&body);
+  bodies.erase(&body);
   const std::int64_t name = name_of(body);
   system.memory().lists_to_fill().remove_if(
       [&](const ContactLists::Contact &one) { return owns(one) && one.partner == name; });
@@ -65,7 +64,7 @@ void ShapedParticles::begin_step()
 {
   if (in_periodic_box()) agreed = false;
   if (!is_at_rest()) return;
-  for (LargeBody *body : system.bodies().in_order()) points_of(*body);
+  for (LargeBody *body : system.bodies().in_order()) points_with_particles(*body);
   system.memory().are_taken(*this);
 }
 
@@ -77,17 +76,29 @@ void ShapedParticles::set_pairs(const std::vector<std::array<int, 2>> &found)
   pairs_here.set_pairs(view(), found, tags, system.law_table());
   const HistoryStore &store = system.memory().pairs();
   pairs_here.restore(system.memory().lists(), [&](int i) { return store.origin(i).name; });
-  for (auto &[body, wall] : walls)
-    if (wall.points) list_particles(*body, *wall.points);
+  for (auto &[body, points] : bodies) list_particles(*body, points);
 }
 
-void ShapedParticles::list_particles(const LargeBody &body, WallPoints &points)
+BodyPoints &ShapedParticles::points_of(LargeBody &body)
+{
+  return bodies.try_emplace(&body, body.shape(), shapes, name_of(body)).first->second;
+}
+
+/* There may be a new body since the rebuild. */
+
+BodyPoints &ShapedParticles::points_with_particles(LargeBody &body)
+{
+  BodyPoints &points = points_of(body);
+  if (!points.has_particles()) list_particles(body, points);
+  return points;
+}
+
+void ShapedParticles::list_particles(const LargeBody &body, BodyPoints &points)
 {
   std::vector<int> particles;
   for (int i = 0; i < atom->nlocal; i++)
     if (is_shaped(atom->type[i]) && (atom->mask[i] & body.group_bits())) particles.push_back(i);
-  points.set_particles(particles);
-  points.restore(system.memory().lists());
+  points.set_particles(view(), particles, system.memory().lists());
 }
 
 /* Called in a step: a run without set-up knows neither the pairs nor the ghosts of shapes. */
@@ -144,30 +155,10 @@ void ShapedParticles::tell_pairs(const ContactStep &step) const
   });
 }
 
-ShapedParticles::Wall &ShapedParticles::wall_of(LargeBody &body)
-{
-  Wall &wall = walls[&body];
-  if (!wall.surfaces) wall.surfaces = std::make_unique<BodySurfaces>(body.shape(), shapes);
-  return wall;
-}
-
-WallPoints &ShapedParticles::points_of(LargeBody &body)
-{
-  Wall &wall = wall_of(body);
-  if (!wall.points) {
-    wall.points = std::make_unique<WallPoints>(shapes, name_of(body));
-    list_particles(body, *wall.points);
-  }
-  return *wall.points;
-}
-
 BodyLoad ShapedParticles::touch_body(LargeBody &body, const BodyStep &step)
 {
   if (step.advance) begin_step();
-  WallPoints &points = points_of(body);
-  BodySurfaces &surfaces = *wall_of(body).surfaces;
-  surfaces.follow();
-  return points.compute(surfaces, body.frame(), view(), body.law_table(), step);
+  return points_with_particles(body).compute(body.frame(), view(), body.law_table(), step);
 }
 
 std::int64_t ShapedParticles::name_of(const LargeBody &body)
@@ -177,7 +168,7 @@ std::int64_t ShapedParticles::name_of(const LargeBody &body)
 
 std::string ShapedParticles::refusal(LargeBody &body)
 {
-  return wall_of(body).surfaces->refusal();
+  return points_of(body).refusal();
 }
 
 }    // namespace Talus
