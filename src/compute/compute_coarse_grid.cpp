@@ -5,6 +5,7 @@
 #include "base/words.h"
 #include "system/host/command_words.h"
 #include "system/host/particle_volume.h"
+#include "system/host/rows.h"
 #include "system/step/granular_system.h"
 
 #include "atom.h"
@@ -37,11 +38,6 @@ const std::vector<std::string> names = {
     "czy",    "czz",     "sxx",      "syy", "szz", "sxy", "sxz",  "syz", "press"};
 enum Quantity { Q_NUMBER, Q_DENSITY, Q_FRACTION, Q_V, Q_TEMP = Q_V + 3, Q_KINETIC, Q_CONTACT = 13 };
 enum { Q_STRESS = Q_CONTACT + 9, Q_PRESSURE = Q_STRESS + 6 };
-
-Vector3<double> row(const double *x)
-{
-  return {x[0], x[1], x[2]};
-}
 
 }    // namespace
 

@@ -2,6 +2,7 @@
 
 #include "fill/fix_pour_rate.h"
 
+#include "base/state_numbers.h"
 #include "fill/region_space.h"
 #include "system/host/command_words.h"
 #include "system/host/restart_data.h"
@@ -212,33 +213,26 @@ void *FixPourRate::extract(const char *what, int &of_type)
 
 /* ---- restart -------------------------------------------------------------------------------- */
 
-namespace {
-constexpr int restart_format = 3;
+static constexpr int restart_format = 3;
 
-struct State {
-  std::uint64_t random;
-  double next_diameter, due, poured, count;
-  std::int64_t next_step;
-};
-}    // namespace
+template <class Exchange> void FixPourRate::exchange_state(Exchange &x)
+{
+  x(random.state, next_diameter, due, poured, count, next_reneighbor);
+}
 
 void FixPourRate::write_restart(FILE *file)
 {
   if (comm->me) return;
-  const State state{random.state, next_diameter, due, poured, count, next_reneighbor};
-  write_restart_data_of_fix(file, restart_format, &state, sizeof state);
+  std::vector<double> numbers;
+  StateNumbers writing(numbers);
+  exchange_state(writing);
+  write_restart_data_of_fix(file, restart_format, numbers.data(), numbers.size() * sizeof(double));
 }
 
 void FixPourRate::restart(char *buffer)
 {
-  const std::string data =
+  const std::vector<double> numbers =
       restart_data_of_fix(lmp, std::string("fix pour/rate ") + id, restart_format, buffer);
-  State state;
-  std::memcpy(&state, data.data(), sizeof state);
-  random.state = state.random;
-  next_diameter = state.next_diameter;
-  due = state.due;
-  poured = state.poured;
-  count = state.count;
-  next_reneighbor = static_cast<bigint>(state.next_step);
+  StateNumbers reading(numbers.data(), numbers.data() + numbers.size());
+  exchange_state(reading);
 }

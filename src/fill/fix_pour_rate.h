@@ -42,6 +42,7 @@ class FixPourRate : public Fix {
                const Talus::SphereGrid &grid) const;
   void create(const std::vector<KnownSphere> &spheres);
   void warn_if_behind();
+  template <class Exchange> void exchange_state(Exchange &x);
 
   int type;
   std::string region_id;

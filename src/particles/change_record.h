@@ -34,6 +34,14 @@ TALUS_INLINE Float8 change_of(Vec4 velocity, Vec4 rotation)
   return join(to_floats(velocity), to_floats(rotation));
 }
 
+/// From what a kick has changed: records of velocities and angular velocities before and after it,
+/// whose fourth numbers are finite and the same. `extrapolation`: see RecordStep.
+TALUS_INLINE Float8 change_by_kick(double extrapolation, double radius, Vec4 v_old, Vec4 v,
+                                   Vec4 w_old, Vec4 w)
+{
+  return change_of(extrapolation * (v - v_old), radius * (extrapolation * (w - w_old)));
+}
+
 TALUS_INLINE void store(ChangeRecord &record, Float8 value)
 {
   store(record.c, value);

@@ -8,12 +8,6 @@
 namespace Talus {
 namespace {
 
-/// Three doubles of a row and a fourth number.
-inline Vec4 record_of(const double *row, double fourth)
-{
-  return four(row[0], row[1], row[2], fourth);
-}
-
 inline void add_to_row(double *row, Vec4 value)
 {
   for (int d = 0; d < 3; d++) row[d] += value[d];

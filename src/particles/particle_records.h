@@ -13,6 +13,7 @@
 
 #include "base/aligned_vector.h"
 #include "particles/change_record.h"
+#include "particles/kick_and_drift.h"
 #include "particles/particle_order.h"
 #include "particles/record.h"
 
@@ -32,20 +33,6 @@ struct ParticleView {
   double *f, *torque;    ///< added to; torque may be nullptr like omega
   double *heat_flow = nullptr;       ///< added to, if given: scalars, of owned particles
   ChangeRecord *change = nullptr;    ///< see ParticleRecords::change; if these are kept
-};
-
-/// One step of an integrator for spheres: v += kick (F/m) + fall, omega += kick T/(inertia m r^2),
-/// both once or twice, then x += dt v. A particle of infinite mass only drifts.
-struct RecordStep {
-  double dt, kick;           ///< time; kick times LAMMPS' force/(mass acceleration)
-  double gravity_kick[3];    ///< change of velocity by gravity, in each kick
-  double inertia;            ///< 2/5 for spheres, 1/2 for discs
-  /// Two for velocity Verlet: with the forces of the last step the kick that ends it, and the one
-  /// that begins this step.
-  bool two_kicks = false;
-  /// Where changes are kept: the time by which velocities are behind positions after the step, over
-  /// the time of the kick.
-  double extrapolation = 0.0;
 };
 
 /// Some slots of a rank: those at begin ... end-1 of a list, or without a list those of a range; of
@@ -146,9 +133,8 @@ class ParticleRecords {
   /// in a step: also of proxies, to which it happens what has happened to their owners.
   TALUS_INLINE void keep_change(std::size_t slot, Vec4 v_old, Vec4 v, Vec4 w_old, Vec4 w)
   {
-    const Vec4 x = load4(position[slot]), radius = shuffle<3, 3, 3, 3>(x, x);
-    store(change[slot],
-          change_of(extrapolation * (v - v_old), radius * (extrapolation * (w - w_old))));
+    const double radius = position[slot].c[3];
+    store(change[slot], change_by_kick(extrapolation, radius, v_old, v, w_old, w));
   }
 
   /// Moves the particles of some slots and resets their sums. `role` of each slot: a ghost, at
@@ -236,8 +222,8 @@ class ParticleRecords {
  private:
   void read_eight(const ParticleOrder &order, const ParticleView &arrays, const int *slots,
                   int count);
-  struct Kick;
-  template <bool rotation, bool changes, bool sums> Vec4 kick(const Kick &with, std::size_t slot);
+  template <bool rotation, bool changes, bool sums>
+  Vec4 move(const KickAndDrift &step, std::size_t slot);
   bool are_idle(const std::vector<Role> &role, const SlotChoice &slots, int begin) const;
   template <bool rotation, bool changes>
   double advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,

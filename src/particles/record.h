@@ -39,6 +39,27 @@ TALUS_INLINE void stream(Record &record, Vec4 value)
   stream(record.c, value);
 }
 
+/// The number in the fourth place of a record, four times.
+TALUS_INLINE Vec4 fourth_of(Vec4 record)
+{
+  return shuffle<3, 3, 3, 3>(record, record);
+}
+TALUS_INLINE Vec4 clear_fourth(Vec4 record)
+{
+  return shuffle<0, 1, 2, 4>(record, Vec4{});
+}
+
+/// Three doubles of a row of LAMMPS and a fourth number, and back. (Number by number: std::copy
+/// would call a function.)
+TALUS_INLINE Vec4 record_of(const double *row, double fourth)
+{
+  return four(row[0], row[1], row[2], fourth);
+}
+TALUS_INLINE void write_row(Vec4 from, double *row)
+{
+  for (int d = 0; d < 3; d++) row[d] = from[d];
+}
+
 /// The history of a contact as its other body sees it.
 inline Record mirrored(const Record &history)
 {

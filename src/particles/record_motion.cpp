@@ -4,7 +4,6 @@
 // order are those of the integrators in the arrays of LAMMPS and of forecast_motion(), so that it
 // does not show in a result where a step was made.
 
-#include "particles/kick_and_drift.h"
 #include "particles/particle_records.h"
 
 #include <algorithm>
@@ -15,17 +14,6 @@
 namespace Talus {
 namespace {
 
-/// The number in the fourth place of a record, four times.
-inline Vec4 fourth_of(Vec4 record)
-{
-  return shuffle<3, 3, 3, 3>(record, record);
-}
-
-inline Vec4 clear_fourth(Vec4 record)
-{
-  return shuffle<0, 1, 2, 4>(record, Vec4{});
-}
-
 /// The squared length of a row of three, in all places. The fourth must be 0. The sum is that of
 /// forecast_motion(): (x x + y y) + z z.
 inline Vec4 square(Vec4 row)
@@ -33,13 +21,6 @@ inline Vec4 square(Vec4 row)
   const Vec4 squares = row * row;
   const Vec4 halves = squares + shuffle<1, 0, 3, 2>(squares, squares);
   return halves + shuffle<2, 3, 0, 1>(halves, halves);
-}
-
-/* Number by number: std::copy would call a function. */
-
-TALUS_INLINE void write_row(Vec4 from, double *to)
-{
-  for (int d = 0; d < 3; d++) to[d] = from[d];
 }
 
 }    // namespace
@@ -66,46 +47,25 @@ void ParticleRecords::set_forces(int slot, const double *f, const double *torque
   if (stride == 2) store(load[2 * s + 1], four(torque_row[0], torque_row[1], torque_row[2], 0.0));
 }
 
-/* What is the same for all particles of a step. The fourth places, 1/m, r and 1/r, stay as they
-   are: 0 is added to them. */
-
-struct ParticleRecords::Kick {
-  explicit Kick(const RecordStep &step) :
-      kick(four(step.kick, step.kick, step.kick, 0.0)), dt(four(step.dt, step.dt, step.dt, 0.0)),
-      gravity_kick(four(step.gravity_kick[0], step.gravity_kick[1], step.gravity_kick[2], 0.0)),
-      inverse_c(1.0 / step.inertia), twice(step.two_kicks)
-  {
-  }
-  Vec4 kick, dt, gravity_kick;
-  double inverse_c;
-  bool twice;
-};
-
 /* Returns the new velocity record. `sums` false: they are those with which they begin, and stay so. */
 
 template <bool rotation, bool changes, bool sums>
-inline Vec4 ParticleRecords::kick(const Kick &with, std::size_t s)
+inline Vec4 ParticleRecords::move(const KickAndDrift &step, std::size_t s)
 {
   constexpr std::size_t stride = rotation ? 2 : 1;
   Record *moves = &motion[stride * s];
-  const Vec4 v = load4(moves[0]), per_mass = fourth_of(v) * with.kick;
-  const Vec4 x = load4(position[s]);
+  const Vec4 x = load4(position[s]), v = load4(moves[0]);
   const Vec4 force = sums ? load4(load[stride * s]) : weight(s, v);
-  const Vec4 gravity_kick = kept_if(v[3] != 0.0, with.gravity_kick);
-  Vec4 v_new = kicked(v, per_mass, force, gravity_kick);
-  if (with.twice) v_new = kicked(v_new, per_mass, force, gravity_kick);
+  const Vec4 v_new = step.velocity(v, force, v[3] != 0.0);
   if constexpr (rotation && (changes || sums)) {
-    const Vec4 w = load4(moves[1]), inverse_radius = clear_fourth(fourth_of(w));
-    const Vec4 per_inertia = kick_per_inertia(per_mass, inverse_radius, with.inverse_c);
-    const Vec4 torque = sums ? torque_of(s, x, force) : Vec4{};
-    Vec4 w_new = kicked_omega(w, per_inertia, torque);
-    if (with.twice) w_new = kicked_omega(w_new, per_inertia, torque);
+    const Vec4 w = load4(moves[1]), torque = sums ? torque_of(s, x, force) : Vec4{};
+    const Vec4 w_new = step.omega(w, v, torque);
     store(moves[1], w_new);
     if constexpr (changes) keep_change(s, v, v_new, w, w_new);
   } else if constexpr (changes)
     keep_change(s, v, v_new, Vec4{}, Vec4{});
   store(moves[0], v_new);
-  store(position[s], drifted(x, with.dt, v_new));
+  store(position[s], step.position(x, v_new));
   return v_new;
 }
 
@@ -134,8 +94,8 @@ double ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
 {
   constexpr std::size_t row_stride = rotation ? 2 : 1;
   constexpr int eight = 8, ahead = 64;
-  const Kick first(steps[0]);
-  const std::vector<Kick> others(steps.begin() + 1, steps.end());
+  const KickAndDrift first(steps[0]);
+  const std::vector<KickAndDrift> others(steps.begin() + 1, steps.end());
   const Role *const roles = role.empty() ? nullptr : role.data();
   const int last = std::max(slots.end, slots.next_end) - 1;
   Vec4 fastest2{};
@@ -150,7 +110,7 @@ double ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
     if (are_idle(role, slots, n)) {
       for (; n < end; n++) {
         prefetch_later(n, false);
-        const Vec4 v = kick<rotation, changes, false>(first, n);
+        const Vec4 v = move<rotation, changes, false>(first, n);
         fastest2 = larger(square(clear_fourth(v)), fastest2);
       }
       continue;
@@ -161,8 +121,8 @@ double ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
       prefetch_later(n, true);
       const std::size_t s = slot;
       const Role role = roles ? roles[s] : MOVES;
-      const Vec4 v = role == MOVES  ? kick<rotation, changes, true>(first, s)
-                     : role > MOVES ? kick<rotation, changes, true>(others[role - MOVES - 1], s)
+      const Vec4 v = role == MOVES  ? move<rotation, changes, true>(first, s)
+                     : role > MOVES ? move<rotation, changes, true>(others[role - MOVES - 1], s)
                                     : load4(motion[row_stride * s]);
       begin_sums(s, v);
       if (role != GHOST) fastest2 = larger(square(clear_fourth(v)), fastest2);

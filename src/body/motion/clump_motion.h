@@ -71,7 +71,7 @@ template <class Real> struct ClumpState {
   /// fix rigid/small of LAMMPS does, to rounding.
   void drift_extrapolated(double dt)
   {
-    position = position + splat<Real>(dt) * velocity;
+    move_center(dt);
     const Vector3<Real> omega_at_first = omega_now();
     const Quaternion<Real> whole = moved(quat, omega_at_first, dt);
     const Quaternion<Real> half = moved(quat, omega_at_first, 0.5 * dt);
@@ -88,7 +88,7 @@ template <class Real> struct ClumpState {
   /// the axis of the moment in the middle; `omega` is that of the end of the step.
   void drift_freely(double dt)
   {
-    position = position + splat<Real>(dt) * velocity;
+    move_center(dt);
     const Vector3<Real> along =
         rotate_freely(quat, momentum, axes.to_body(momentum), inverse_inertia, dt);
     axes = quat.axes();
@@ -106,6 +106,8 @@ template <class Real> struct ClumpState {
   }
 
  private:
+  void move_center(double dt) { position = position + splat<Real>(dt) * velocity; }
+
   Vector3<Real> by_inertia(const Vector3<Real> &l) const
   {
     return {l.x * inverse_inertia.x, l.y * inverse_inertia.y, l.z * inverse_inertia.z};

@@ -10,8 +10,6 @@
 #include "comm.h"
 #include "error.h"
 
-#include <cstring>
-
 using namespace LAMMPS_NS;
 using namespace Talus;
 
@@ -31,10 +29,8 @@ void FixLargeBody::write_restart(FILE *fp)
 
 void FixLargeBody::restart(char *buf)
 {
-  const std::string data =
+  const std::vector<double> values =
       restart_data_of_fix(lmp, std::string("Fix large/body ") + id, restart_format, buf);
-  std::vector<double> values(data.size() / sizeof(double));
-  std::memcpy(values.data(), data.data(), data.size());
   const LargeBody::RestartProblem problem =
       body->restart_from(values.data(), values.data() + values.size());
   if (!problem.error.empty()) error->all(FLERR, "Fix large/body {}: {}", id, problem.error);

@@ -46,22 +46,21 @@ class ClumpLanes {
   int num_groups() const { return static_cast<int>(groups.size()); }
 
   // find_motion(state, sums) moves the clumps of a group and returns the motion of their spheres;
-  // those of this rank get their places and velocities. row(sphere): force and torque on one that
-  // another rank owns; shift(sphere): a record, by which the center of mass is away as it is
-  // counted, of one that is wrapped
-  template <class FindMotion, class RowOfSphere, class Shift>
+  // those of this rank get their places and velocities. load_of(sphere): force and torque on any one;
+  // shift_of(sphere): by which the center of mass is away as it is counted, of one that is wrapped
+  template <class FindMotion, class LoadOf, class ShiftOf>
   void move(const ClumpTable &table, Talus::ParticleRecords &records, int group,
-            FindMotion find_motion, RowOfSphere row, Shift shift)
+            FindMotion find_motion, LoadOf load_of, ShiftOf shift_of)
   {
     if (group + 1 < num_groups()) prefetch(records, groups[group + 1]);
     Group &this_group = groups[group];
     State s = this_group.load();
-    const Motion motion = find_motion(s, sum_loads(table, records, this_group, s, row));
+    const Motion motion = find_motion(s, sum_loads(table, records, this_group, s, load_of));
     this_group.keep(s);
     if (records.keeps_changes())
-      place<true>(table, records, this_group, s, motion, shift);
+      place<true>(table, records, this_group, s, motion, shift_of);
     else
-      place<false>(table, records, this_group, s, motion, shift);
+      place<false>(table, records, this_group, s, motion, shift_of);
   }
 
  private:
@@ -150,14 +149,14 @@ class ClumpLanes {
     }
   }
 
-  template <class RowOfSphere>
+  template <class LoadOf>
   Sums sum_loads(const ClumpTable &table, const Talus::ParticleRecords &records, const Group &group,
-                 const State &state, RowOfSphere row) const
+                 const State &state, LoadOf load_of) const
   {
     Sums sum{};
     for (int r = group.first_row; r < group.end_row; r++) {
-      const Sums row_sum = rows[r].usual ? loads_of(records, rows[r])
-                                         : loads_one_by_one(table, records, group, r, row);
+      const Sums row_sum =
+          rows[r].usual ? loads_of(records, rows[r]) : loads_one_by_one(table, group, r, load_of);
       sum.force = sum.force + row_sum.force;
       sum.torque = sum.torque +
                    (cross(state.axes.to_space(rows[r].place()), row_sum.force) + row_sum.torque);
@@ -192,25 +191,19 @@ class ClumpLanes {
     return {{f.number[0], f.number[1], f.number[2]}, torque};
   }
 
-  template <class RowOfSphere>
-  Sums loads_one_by_one(const ClumpTable &table, const Talus::ParticleRecords &records,
-                        const Group &group, int r, RowOfSphere row) const
+  template <class LoadOf>
+  static Sums loads_one_by_one(const ClumpTable &table, const Group &group, int r, LoadOf load_of)
   {
     Talus::Record f[lanes] = {}, t[lanes] = {};
     for_each_sphere(table, group, r - group.first_row, [&](int k, const ClumpSphere &sphere) {
-      const int slot = rows[r].slot[k];
-      if (!sphere.owned) {
-        const double *load = row(sphere);
-        std::copy(load, load + 3, f[k].c);
-        std::copy(load + 3, load + 6, t[k].c);
-      } else if (records.velocity(slot).c[3] > 0.0) {    // not frozen
-        f[k] = records.load[2L * slot];
-        store(t[k], records.torque(slot));
-      }
+      const auto load = load_of(sphere);
+      f[k] = record_of(load.force);
+      t[k] = record_of(load.torque);
     });
     return {three(f), three(t)};
   }
 
+  static Talus::Record record_of(const Talus::Vector3<double> &v) { return {{v.x, v.y, v.z, 0.0}}; }
   static Vector three(const Talus::Record *records)
   {
     const Talus::EightRows all =
@@ -218,16 +211,17 @@ class ClumpLanes {
     return {all.number[0], all.number[1], all.number[2]};
   }
 
-  template <bool changes, class Shift>
+  template <bool changes, class ShiftOf>
   void place(const ClumpTable &table, Talus::ParticleRecords &records, const Group &group,
-             const State &s, const Motion &motion, Shift shift) const
+             const State &s, const Motion &motion, ShiftOf shift_of) const
   {
     for (int r = group.first_row; r < group.end_row; r++) {
       const Row &row = rows[r];
       const Vector place = row.place(), arm = s.axes.to_space(place), v = motion.velocity_at(place);
       const int m = r - group.first_row;
-      const Vector x = arm + (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift)
-                                          : s.position);
+      const Vector x =
+          arm +
+          (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift_of) : s.position);
       Talus::Record x_row[lanes], v_row[lanes], w_row[lanes];
       Talus::to_rows({x.x, x.y, x.z, row.at(Row::RADIUS)}, x_row);
       Talus::to_rows({v.x, v.y, v.z, row.at(Row::INVERSE_MASS)}, v_row);
@@ -251,13 +245,13 @@ class ClumpLanes {
     }
   }
 
-  template <class Shift>
+  template <class ShiftOf>
   static Vector shifts(const ClumpTable &table, const Group &group, int m, unsigned wrapped,
-                       Shift shift)
+                       ShiftOf shift_of)
   {
     Talus::Record away[lanes] = {};
     for (int k = 0; k < lanes; k++)
-      if (wrapped >> k & 1U) away[k] = shift(table.begin(group.first_clump + k)[m]);
+      if (wrapped >> k & 1U) away[k] = record_of(shift_of(table.begin(group.first_clump + k)[m]));
     return three(away);
   }
 };

@@ -1,9 +1,10 @@
 /* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
 
 #include "fix/clump/fix_rigid_small_talus.h"
-#include "system/host/restart_data.h"
 
 #include "fix/motion/plain_style.h"
+#include "system/host/restart_data.h"
+#include "system/host/rows.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"
@@ -18,25 +19,12 @@
 
 using namespace LAMMPS_NS;
 using ClumpState = Talus::ClumpState<double>;
+using Talus::put;
+using Talus::row;
 using Vector = Talus::Vector3<double>;
 
-namespace {
 // see RecordStep::extrapolation: velocities are half a step behind positions
-constexpr double half_of_change = 0.5;
-
-Vector vector_of(const double *a)
-{
-  return {a[0], a[1], a[2]};
-}
-
-void put(const Vector &v, double *a)
-{
-  a[0] = v.x;
-  a[1] = v.y;
-  a[2] = v.z;
-}
-
-}    // namespace
+static constexpr double half_of_change = 0.5;
 
 /* ---------------------------------------------------------------------- */
 
@@ -129,10 +117,10 @@ ClumpState FixRigidSmallTalus::state_of(const Body &b)
   s.mass = b.mass;
   const auto inverse = [](double moment) { return moment == 0.0 ? 0.0 : 1.0 / moment; };
   s.inverse_inertia = {inverse(b.inertia[0]), inverse(b.inertia[1]), inverse(b.inertia[2])};
-  s.position = vector_of(b.xcm);
-  s.velocity = vector_of(b.vcm);
-  s.momentum = vector_of(b.angmom);
-  s.omega = vector_of(b.omega);
+  s.position = row(b.xcm);
+  s.velocity = row(b.vcm);
+  s.momentum = row(b.angmom);
+  s.omega = row(b.omega);
   s.quat = {b.quat[0], b.quat[1], b.quat[2], b.quat[3]};
   s.axes = s.quat.axes();
   return s;
@@ -151,16 +139,20 @@ void FixRigidSmallTalus::put_state(const ClumpState &s, Body &b)
   put(s.axes.z, b.ez_space);
 }
 
+FixRigidSmallTalus::Loads FixRigidSmallTalus::load_of(const ClumpSphere &s) const
+{
+  if (s.owned) return particles.load(s.atom);
+  const double *received = row_of(s);
+  return {row(received), row(received + 3)};
+}
+
 FixRigidSmallTalus::Loads FixRigidSmallTalus::loads_on(int clump, const ClumpState &state) const
 {
   Loads sum{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++) {
-    const double *row = s->owned ? nullptr : row_of(*s);
-    const Loads sphere_load =
-        row ? Loads{vector_of(row), vector_of(row + 3)} : particles.load(s->atom);
-    sum.force = sum.force + sphere_load.force;
-    sum.torque =
-        sum.torque + (cross(state.axes.to_space(s->place), sphere_load.force) + sphere_load.torque);
+    const Loads one = load_of(*s);
+    sum.force = sum.force + one.force;
+    sum.torque = sum.torque + (cross(state.axes.to_space(s->place), one.force) + one.torque);
   }
   if (domain->dimension == 2) sum.force.z = sum.torque.x = sum.torque.y = 0.0;
   return sum;
@@ -215,16 +207,13 @@ FixRigidSmallTalus::SphereVelocity FixRigidSmallTalus::velocity_of(const ClumpSp
   return {particles.velocity(s.atom), particles.angular_velocity(s.atom)};
 }
 
-/* With the bits of ParticleRecords::keep_change(). */
-
 void FixRigidSmallTalus::keep_change(Talus::ChangeRecord &change, const ClumpSphere &s,
                                      const SphereVelocity &old) const
 {
+  const auto record = [](const Vector &a) { return Talus::four(a.x, a.y, a.z, 0.0); };
   const SphereVelocity now = velocity_of(s);
-  const Vector dv = extrapolation * (now.v - old.v),
-               dw = atom->radius[s.atom] * (extrapolation * (now.omega - old.omega));
-  store(change,
-        Talus::change_of(Talus::four(dv.x, dv.y, dv.z, 0.0), Talus::four(dw.x, dw.y, dw.z, 0.0)));
+  store(change, Talus::change_by_kick(extrapolation, atom->radius[s.atom], record(old.v),
+                                      record(now.v), record(old.omega), record(now.omega)));
 }
 
 /* The virial of the forces that hold the spheres together: what their velocities changed by beyond
@@ -242,7 +231,7 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
     if (!s->owned) continue;
     const int i = s->atom;
     double *const x = particles.x(i), *const v = particles.v(i), *const w = particles.w(i);
-    const Vector x_old = vector_of(x);
+    const Vector x_old = row(x);
     const SphereVelocity old = velocity_of(*s);
     const Vector arm = state.axes.to_space(s->place);
     const Vector shift = shift_of(*s);
@@ -257,7 +246,7 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
       keep_change(*change, *s, before ? before[s - table.begin(clump)] : old);
     if (!tallies) continue;
 
-    const Vector change = vector_of(v) - old.v - vector_of(kick.gravity_kick);
+    const Vector change = row(v) - old.v - row(kick.gravity_kick);
     const Vector holds = (atom->rmass[i] / kick.time) * change - particles.force(i);
     const Vector at = x_old + shift, part = kick.share * holds;
     double virial_of[6] = {at.x * part.x, at.y * part.y, at.z * part.z,
@@ -268,7 +257,7 @@ void FixRigidSmallTalus::place_spheres(int clump, const ClumpState &state,
     int list = i;
     v_tally(1, &list, 1.0, virial_of, place, forces, center);
   }
-  if (evflag && moves) put(state.position + state.axes.to_space(vector_of(b.xgc_body)), b.xgc);
+  if (evflag && moves) put(state.position + state.axes.to_space(row(b.xgc_body)), b.xgc);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -320,32 +309,25 @@ Talus::RecordStep FixRigidSmallTalus::record_step(double kick) const
   return step;
 }
 
-/* The last step is completed first, if that has been put off. */
+/* The last step is completed first, if that has been put off, without its part of virials; changes of
+   velocities are those by both kicks. */
 
 void FixRigidSmallTalus::begin_step()
 {
   take_from_lanes();
-  const Kick no_share{dtf, {0.0, 0.0, 0.0}, 0.0}, kick{dtf, {0.0, 0.0, 0.0}, 0.5};
   for_each_clump([&](int clump, Body &b) {
-    ClumpState s = state_of(b);
-    Loads loads{vector_of(b.fcm), vector_of(b.torque)};
     std::vector<SphereVelocity> before;
     if (kick_is_due) {
-      loads = loads_on(clump, s);
-      if (id_gravity) loads.force = loads.force + weight(s.mass);
-      s.kick(dtf, loads.force, loads.torque);
-      s.omega = s.omega_now();
-      if (evflag) {    // their velocities after the first of both kicks, for virials
-        for (const ClumpSphere *one = table.begin(clump); one != table.end(clump); one++)
-          before.push_back(one->owned ? velocity_of(*one) : SphereVelocity{});
-        place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::VELOCITIES, no_share);
-      }
+      for (const ClumpSphere *s = table.begin(clump); s != table.end(clump); s++)
+        before.push_back(s->owned ? velocity_of(*s) : SphereVelocity{});
+      end_step(clump, b, 0.0);
     }
-    s.kick(dtf, loads.force, loads.torque);
+    ClumpState s = state_of(b);
+    s.kick(dtf, row(b.fcm), row(b.torque));
     s.drift_extrapolated(dtv);
     put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::POSITIONS_AND_VELOCITIES, kick,
-                  before.empty() ? nullptr : before.data());
+    place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::POSITIONS_AND_VELOCITIES,
+                  {dtf, {0.0, 0.0, 0.0}, 0.5}, before.empty() ? nullptr : before.data());
   });
 }
 
@@ -363,17 +345,20 @@ void FixRigidSmallTalus::complete_step()
   find_particles();
   take_from_lanes();
   share_loads();
-  for_each_clump([&](int clump, Body &b) {
-    ClumpState s = state_of(b);
-    Loads loads = loads_on(clump, s);
-    if (id_gravity) loads.force = loads.force + weight(s.mass);
-    put(loads.force, b.fcm);
-    put(loads.torque, b.torque);
-    s.kick(dtf, loads.force, loads.torque);
-    s.omega = s.omega_now();
-    put_state(s, b);
-    place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::VELOCITIES,
-                  {dtf, {0.0, 0.0, 0.0}, 0.5});
-  });
+  for_each_clump([&](int clump, Body &b) { end_step(clump, b, 0.5); });
   kick_is_due = false;
+}
+
+void FixRigidSmallTalus::end_step(int clump, Body &b, double share_of_virial)
+{
+  ClumpState s = state_of(b);
+  Loads loads = loads_on(clump, s);
+  if (id_gravity) loads.force = loads.force + weight(s.mass);
+  put(loads.force, b.fcm);
+  put(loads.torque, b.torque);
+  s.kick(dtf, loads.force, loads.torque);
+  s.omega = s.omega_now();
+  put_state(s, b);
+  place_spheres(clump, s, s.sphere_motion(), b, SphereUpdate::VELOCITIES,
+                {dtf, {0.0, 0.0, 0.0}, share_of_virial});
 }

@@ -99,17 +99,14 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   // same time, if moves_in_lanes(); its spheres then get their places: eight clumps at a time
   template <class Motion> void move_in_lanes(Motion motion)
   {
-    Talus::ParticleRecords &records = *particles.records();
-    records.extrapolation = extrapolation;
+    particles.records()->extrapolation = extrapolation;
     if (!lanes.are_current()) fill_lanes();
     Talus::in_ranges(lanes.num_groups(), threads(), [&](int, int begin, int end) {
       for (int g = begin; g < end; g++)
         lanes.move(
-            table, records, g, motion, [this](const ClumpSphere &s) { return row_of(s); },
-            [this](const ClumpSphere &s) {
-              const Talus::Vector3<double> shift = shift_of(s);
-              return Talus::Record{{shift.x, shift.y, shift.z, 0.0}};
-            });
+            table, *particles.records(), g, motion,
+            [this](const ClumpSphere &s) { return load_of(s); },
+            [this](const ClumpSphere &s) { return shift_of(s); });
     });
   }
   // of clumps whose spheres are in the records, where no more is asked for than such motions give
@@ -126,6 +123,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   }
   static Talus::ClumpState<double> state_of(const Body &b);
   static void put_state(const Talus::ClumpState<double> &s, Body &b);
+  Loads load_of(const ClumpSphere &sphere) const;
   Loads loads_on(int clump, const Talus::ClumpState<double> &state) const;
   struct SphereVelocity {
     Talus::Vector3<double> v, omega;
@@ -189,6 +187,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   bool is_kept(int clump) const;
 
   void begin_step();
+  void end_step(int clump, Body &b, double share_of_virial);
   template <class Real> Talus::Vector3<Real> weight(Real mass) const
   {
     const Talus::Vector3<double> g{gvec[0], gvec[1], gvec[2]};

@@ -3,6 +3,10 @@
 #include "fix/motion/fix_nve_sphere_symplectic.h"
 
 #include "base/in_parallel.h"
+#include "body/motion/quaternion.h"
+#include "system/host/command_words.h"
+#include "system/host/fix_list.h"
+#include "system/host/rows.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -12,12 +16,9 @@
 #include "group.h"
 #include "math_extra.h"
 #include "modify.h"
-#include "system/host/command_words.h"
-#include "system/host/fix_list.h"
 #include "update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include <string>
@@ -26,6 +27,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using Talus::command_words;
+using Talus::row;
 using Talus::Words;
 
 namespace {
@@ -213,13 +215,6 @@ Talus::Kicks FixNVESphereSymplectic::kicks() const
   return {start.last_kick() / update->dt, 0.0};
 }
 
-/* ---------------------------------------------------------------------- */
-
-int FixNVESphereSymplectic::nmoving() const
-{
-  return igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
-}
-
 /* ----------------------------------------------------------------------
    quaternions and dipoles turn by the angle dt |omega| about omega,
    a rotation in the frame of space: exact for constant omega
@@ -227,7 +222,8 @@ int FixNVESphereSymplectic::nmoving() const
 
 void FixNVESphereSymplectic::rotate(double dt)
 {
-  Talus::in_ranges(nmoving(), comm->nthreads, [this, dt](int, int begin, int end) {
+  const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
+  Talus::in_ranges(n, comm->nthreads, [this, dt](int, int begin, int end) {
     for (int i = begin; i < end; i++)
       if (atom->mask[i] & groupbit) rotate(i, dt);
   });
@@ -235,25 +231,17 @@ void FixNVESphereSymplectic::rotate(double dt)
 
 void FixNVESphereSymplectic::rotate(int i, double dt)
 {
-  const double *const w = atom->omega[i];
-  const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-  if (speed == 0.0) return;
-
-  double axis[3] = {w[0] / speed, w[1] / speed, w[2] / speed};
-  double rotation[4], now[4];
-  MathExtra::axisangle_to_quat(axis, dt * speed, rotation);
-
+  const auto rotation = Talus::rotation_in(row(atom->omega[i]), dt);
   if (atom->quat_flag) {
-    double *const quat = atom->quat[i];
-    MathExtra::quatquat(rotation, quat, now);
-    MathExtra::qnormalize(now);
-    for (int k = 0; k < 4; k++) quat[k] = now[k];
+    double *const q = atom->quat[i];
+    const auto now = (rotation * Talus::Quaternion<double>{q[0], q[1], q[2], q[3]}).normalized();
+    const double values[4] = {now.w, now.x, now.y, now.z};
+    std::copy(values, values + 4, q);
   }
   if (atom->mu_flag && atom->mu[i][3] > 0.0) {
     double *const mu = atom->mu[i];    // x y z length
-    MathExtra::quatrotvec(rotation, mu, now);
-    const double scale = mu[3] / MathExtra::len3(now);
-    for (int k = 0; k < 3; k++) mu[k] = scale * now[k];
+    const Talus::Vector3<double> now = rotation.axes().to_space(row(mu));
+    Talus::put(mu[3] / length(now) * now, mu);
   }
 }
 

@@ -91,7 +91,6 @@ class FixNVESphereSymplectic : public Fix, public Talus::SystemFix {
   void check_fix(Fix *);
   bigint count_members(const std::function<bool(int)> &);
 
-  int nmoving() const;
   Talus::RecordStep step_of(double, double) const;
   void rotate(double dt);
   void rotate(int i, double dt);

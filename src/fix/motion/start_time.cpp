@@ -7,7 +7,7 @@
 #include "comm.h"
 #include "error.h"
 
-#include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -29,9 +29,7 @@ void StartTime::write_restart(FILE *fp, double half_way) const
 
 double StartTime::restart(const char *buf)
 {
-  double state[2];
-  memcpy(state, Talus::restart_data_of_fix(lmp, command, restart_format, buf).data(),
-         sizeof(state));
+  const std::vector<double> state = Talus::restart_data_of_fix(lmp, command, restart_format, buf);
   const bool is_half_way = state[0] >= 2.0, was_half = state[0] - (is_half_way ? 2.0 : 0.0) > 0.0;
 
   if (was_half == half) {

@@ -6,7 +6,7 @@
 
 #include "system/host/command_words.h"
 #include "system/host/lammps_compat.h"
-#include "system/shapes/orientations.h"
+#include "system/host/rows.h"
 
 #include "atom.h"
 #include "force.h"

@@ -93,7 +93,7 @@ void FixShapeGran::write_restart(FILE *fp)
 
 void FixShapeGran::restart(char *buf)
 {
-  const std::string data =
+  const std::vector<double> data =
       restart_data_of_fix(lmp, std::string("Fix shape/gran ") + id, restart_format, buf);
   bigint particles;
   std::memcpy(&particles, data.data(), sizeof particles);

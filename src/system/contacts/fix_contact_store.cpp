@@ -27,6 +27,7 @@
 #include <utility>
 
 using namespace LAMMPS_NS;
+using Talus::record_of;
 using namespace FixConst;
 using Talus::ContactLists, Talus::HistoryStore, Talus::most_history_values;
 
@@ -365,11 +366,11 @@ void FixContactStore::follow_velocities(int mine, const Talus::ShapedParticles *
   Talus::in_ranges(atom->nlocal, comm->nthreads, [=](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
       if ((atom->mask[i] & mine) || (shapes && shapes->moves(i))) continue;
-      for (int d = 0; d < 3; d++) {
-        changes[i].c[d] = static_cast<float>(0.5 * (atom->v[i][d] - last[i][d]));
-        changes[i].c[4 + d] =
-            static_cast<float>(atom->radius[i] * (0.5 * (atom->omega[i][d] - last[i][3 + d])));
-      }
+      const double *const before = last[i].data();
+      Talus::store(changes[i],
+                   Talus::change_by_kick(0.5, atom->radius[i], record_of(before, 0.0),
+                                         record_of(atom->v[i], 0.0), record_of(before + 3, 0.0),
+                                         record_of(atom->omega[i], 0.0)));
     }
   });
 }

@@ -227,9 +227,7 @@ void FixContactStore::write_restart(FILE *fp)
 
 void FixContactStore::restart(char *buf)
 {
-  double state[STATE_SIZE];
-  const std::string data = Talus::restart_data_of_fix(lmp, name(), restart_format, buf);
-  std::memcpy(state, data.data(), sizeof state);
+  const std::vector<double> state = Talus::restart_data_of_fix(lmp, name(), restart_format, buf);
   order = static_cast<int>(state[ORDER]);
   pairs_were_read = state[WITH_PAIRS] != 0.0;
   inverse_cell = state[INVERSE_CELL];

@@ -108,8 +108,8 @@ std::string read_restart_data(LAMMPS *lmp, const std::string &command, int forma
   return data;
 }
 
-std::string restart_data_of_fix(LAMMPS *lmp, const std::string &command, int format,
-                                const char *buf)
+std::vector<double> restart_data_of_fix(LAMMPS *lmp, const std::string &command, int format,
+                                        const char *buf)
 {
   Head head{};
   std::memcpy(head.data(), buf, sizeof head[MARK]);
@@ -118,7 +118,9 @@ std::string restart_data_of_fix(LAMMPS *lmp, const std::string &command, int for
   if (head[MARK] != mark || !tells_a_size(head) ||
       digest_of(format, data, size_of(head)) != head[DIGEST])
     lmp->error->all(FLERR, "{}: {}", command, problem);
-  return {data, size_of(head)};
+  std::vector<double> numbers(size_of(head) / sizeof(double));
+  std::memcpy(numbers.data(), data, numbers.size() * sizeof(double));
+  return numbers;
 }
 
 /* ---- of particles --------------------------------------------------------------------------- */

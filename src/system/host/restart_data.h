@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -28,10 +29,10 @@ namespace Talus {
 void write_restart_data(FILE *file, int format, const void *data, std::size_t bytes);
 std::string read_restart_data(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int format,
                               FILE *file);
-/// For Fix::write_restart(), and what restart(buf) gets of it. Not more than LAMMPS counts: 2 GB.
+/// For Fix::write_restart(), and what restart(buf) gets of it, whole words of eight bytes. Not more than LAMMPS counts: 2 GB.
 void write_restart_data_of_fix(FILE *file, int format, const void *data, std::size_t bytes);
-std::string restart_data_of_fix(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int format,
-                                const char *buf);
+std::vector<double> restart_data_of_fix(LAMMPS_NS::LAMMPS *lmp, const std::string &command,
+                                        int format, const char *buf);
 
 /// Data of a particle, for Fix::pack_restart(): they begin behind a head of this many doubles, which is filled in when
 /// they are complete, and are `size` together, which is returned.

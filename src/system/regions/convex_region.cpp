@@ -3,6 +3,7 @@
 #include "system/regions/convex_region.h"
 
 #include "system/host/private_members.h"
+#include "system/host/rows.h"
 #include "system/regions/region_surface.h"
 
 #include "region_block.h"
@@ -25,11 +26,6 @@ namespace {
 template <class Style> const Style *as(const Region &region)
 {
   return dynamic_cast<const Style *>(&region);
-}
-
-Vector3<double> vector_of(const double *v)
-{
-  return {v[0], v[1], v[2]};
 }
 
 Vec8 smaller(Vec8 a, Vec8 b)
@@ -62,10 +58,10 @@ ConvexRegion::ConvexRegion(const Region &region)
   } else if (const auto *sphere = as<RegSphere>(region)) {
     const auto sphere_shape = shape_of(*sphere);
     rounds_at_rest.push_back(
-        {vector_of(sphere_shape.data()), {0.0, 0.0, 0.0}, sphere_shape[3], 0.0, 1.0});
+        {row(sphere_shape.data()), {0.0, 0.0, 0.0}, sphere_shape[3], 0.0, 1.0});
   } else if (const auto *plane = as<RegPlane>(region)) {
     const auto [point, normal] = shape_of(*plane);
-    add_plane(vector_of(point.data()), vector_of(normal.data()));
+    add_plane(row(point.data()), row(normal.data()));
   }
   place(RegionPose());
 }
@@ -78,7 +74,7 @@ void ConvexRegion::add_plane(const Vector3<double> &point, const Vector3<double>
 void ConvexRegion::add_planes(const CornersOfRegion &corners)
 {
   for (int face = 0; face < 6; face++)
-    add_plane(vector_of(corners.corner[face % 2]), vector_of(corners.normal[face]));
+    add_plane(row(corners.corner[face % 2]), row(corners.normal[face]));
 }
 
 /* Ends may be as far away as 1e20. */
@@ -89,11 +85,11 @@ void ConvexRegion::add_round(const RoundRegion &shape)
   axis[shape.axis] = 1.0;
   point[shape.axis == 0 ? 1 : 0] = shape.center[0];
   point[shape.axis == 2 ? 1 : 2] = shape.center[1];
-  const Vector3<double> along = vector_of(axis);
+  const Vector3<double> along = row(axis);
   planes_at_rest.push_back({along, shape.end[0]});
   planes_at_rest.push_back({-along, -shape.end[1]});
   const double slope = (shape.radius[1] - shape.radius[0]) / (shape.end[1] - shape.end[0]);
-  rounds_at_rest.push_back({vector_of(point), along, shape.radius[0] - slope * shape.end[0], slope,
+  rounds_at_rest.push_back({row(point), along, shape.radius[0] - slope * shape.end[0], slope,
                             1.0 / std::sqrt(1.0 + slope * slope)});
 }
 

@@ -3,7 +3,7 @@
 #include "system/shapes/shaped_particles.h"
 
 #include "system/bodies/large_body.h"
-#include "system/shapes/orientations.h"
+#include "system/host/rows.h"
 #include "system/step/granular_system.h"
 
 #include "base/in_parallel.h"
@@ -87,29 +87,22 @@ void ShapedParticles::keep_change(ChangeRecord &change, int i, const Load &load)
       shapes.of(atom->type[i])
           ->rotation()
           .omega_of(quaternion(quat[i]), (half * atom->radius[i]) * load.torque);
-  change = {{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F,
-             static_cast<float>(omega.x), static_cast<float>(omega.y), static_cast<float>(omega.z),
-             0.0F}};
+  store(change, change_of(four(v.x, v.y, v.z, 0.0), four(omega.x, omega.y, omega.z, 0.0)));
 }
 
 void ShapedParticles::move(const ParticleState &particles, int i)
 {
   const Load load = particles.load(i);
   if (ChangeRecord *change = particles.change(i)) keep_change(*change, i, load);
-  double *const x = particles.x(i), *const v = particles.v(i), *const w = particles.w(i);
-  const double dt = update->dt, kick = dt * force->ftm2v / atom->rmass[i];
-  const double f[3] = {load.force.x, load.force.y, load.force.z};
-  for (int d = 0; d < 3; d++) {
-    v[d] += kick * f[d];
-    x[d] += dt * v[d];
-  }
+  const double dt = update->dt, kick = dt * force->ftm2v;
+  const Vector3<double> v = particles.velocity(i) + (kick / atom->rmass[i]) * load.force;
+  put(v, particles.v(i));
+  put(particles.position(i) + dt * v, particles.x(i));
   Eigen::Quaterniond q = quaternion(quat[i]);
-  Vector3<double> omega = row(w);
+  Vector3<double> omega = particles.angular_velocity(i);
   shapes.of(atom->type[i])->rotation().advance(q, omega, force->ftm2v * load.torque, dt);
   put(q, quat[i]);
-  w[0] = omega.x;
-  w[1] = omega.y;
-  w[2] = omega.z;
+  put(omega, particles.w(i));
 }
 
 void ShapedParticles::move()

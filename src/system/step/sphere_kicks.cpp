@@ -2,8 +2,6 @@
 
 #include "system/step/sphere_kicks.h"
 
-#include "particles/kick_and_drift.h"
-
 #include "base/in_parallel.h"
 
 #include "atom.h"
@@ -12,8 +10,12 @@
 #include "lammps.h"
 
 using namespace LAMMPS_NS;
+using Talus::change_by_kick;
+using Talus::record_of;
+using Talus::Vec4;
+using Talus::write_row;
 
-void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
+void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, Talus::RecordStep step, int frozenbits,
                              bool drifts, Talus::ChangeRecord *changes)
 {
   const Atom *const atom = lmp->atom;
@@ -29,31 +31,23 @@ void LAMMPS_NS::kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &s
   const double *const radius = atom->radius;
   const double *const rmass = atom->rmass;
   const int *const mask = atom->mask, groupbit = lmp->group->bitmask[igroup];
-  const double dt = step.dt, kick = step.kick, inverse_c = 1.0 / step.inertia;
+  step.two_kicks = false;
+  const Talus::KickAndDrift kick(step);
   const double extrapolation = step.extrapolation;
-  const double gravity_kick[3] = {step.gravity_kick[0], step.gravity_kick[1], step.gravity_kick[2]};
 
   Talus::in_ranges(n, lmp->comm->nthreads, [=](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
       if (!(mask[i] & groupbit)) continue;
-      Talus::ChangeRecord *const change = changes ? changes + i : nullptr;
-      const double per_mass = kick * (1.0 / rmass[i]), inverse_radius = 1.0 / radius[i];
-      const double per_inertia = Talus::kick_per_inertia(per_mass, inverse_radius, inverse_c);
-      const double falls = (mask[i] & frozenbits) ? 0.0 : 1.0;
-      for (int d = 0; d < 3; d++) {
-        const bigint k = 3 * static_cast<bigint>(i) + d;
-        const double v_old = v[k], omega_old = omega[k];
-        const double v_new = Talus::kicked(v_old, per_mass, f[k], falls * gravity_kick[d]);
-        const double omega_new = Talus::kicked_omega(omega_old, per_inertia, torque[k]);
-        v[k] = v_new;
-        omega[k] = omega_new;
-        if (change) {
-          change->c[d] = static_cast<float>(extrapolation * (v_new - v_old));
-          change->c[4 + d] =
-              static_cast<float>(radius[i] * (extrapolation * (omega_new - omega_old)));
-        }
-        if (drifts) x[k] = Talus::drifted(x[k], dt, v_new);
-      }
+      const bigint k = 3 * static_cast<bigint>(i);
+      const Vec4 v_old = record_of(v + k, 1.0 / rmass[i]),
+                 w_old = record_of(omega + k, 1.0 / radius[i]);
+      const Vec4 v_new = kick.velocity(v_old, record_of(f + k, 0.0), !(mask[i] & frozenbits));
+      const Vec4 w_new = kick.omega(w_old, v_old, record_of(torque + k, 0.0));
+      write_row(v_new, v + k);
+      write_row(w_new, omega + k);
+      if (changes)
+        store(changes[i], change_by_kick(extrapolation, radius[i], v_old, v_new, w_old, w_new));
+      if (drifts) write_row(kick.position(record_of(x + k, 0.0), v_new), x + k);
     }
   });
 }

@@ -14,15 +14,14 @@ class LAMMPS;
    particles/kick_and_drift.h: a particle gets the bits that it would get in the records,
    on any number of threads.
 
-     v += kick F/m + fall, omega += kick T/(inertia m r^2), then with `drifts` x += dt v
-
    Called by integrators, at the start or the end of a step. `groupbit`: who moves;
+   `drifts`: positions as well;
    `changes`: nullptr, or receives those of velocities, see ParticleRecords::change;
    `frozenbits`: groups whose members do not fall. One kick, whatever step.two_kicks says.
 ------------------------------------------------------------------------- */
 
-void kick_spheres(LAMMPS *lmp, int igroup, const Talus::RecordStep &step, int frozenbits,
-                  bool drifts, Talus::ChangeRecord *changes = nullptr);
+void kick_spheres(LAMMPS *lmp, int igroup, Talus::RecordStep step, int frozenbits, bool drifts,
+                  Talus::ChangeRecord *changes = nullptr);
 
 }    // namespace LAMMPS_NS
 

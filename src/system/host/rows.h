@@ -2,8 +2,8 @@
 //
 // Rows of the arrays of LAMMPS as vectors and quaternions.
 
-#ifndef TALUS_SYSTEM_SHAPES_ORIENTATIONS_H
-#define TALUS_SYSTEM_SHAPES_ORIENTATIONS_H
+#ifndef TALUS_SYSTEM_HOST_ROWS_H
+#define TALUS_SYSTEM_HOST_ROWS_H
 
 #include "base/linear_algebra.h"
 
@@ -12,6 +12,13 @@ namespace Talus {
 inline Vector3<double> row(const double *of)
 {
   return {of[0], of[1], of[2]};
+}
+
+inline void put(const Vector3<double> &v, double *to)
+{
+  to[0] = v.x;
+  to[1] = v.y;
+  to[2] = v.z;
 }
 
 inline Eigen::Quaterniond quaternion(const double *wxyz)
