@@ -171,7 +171,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   /// In init(), if the run is accelerated.
   virtual void begin_run() = 0;
   /// Its surface; where it is in this step.
-  virtual const WallSurface &surface() const = 0;
+  virtual const LargeBodyShape &surface() const = 0;
   virtual void place() = 0;
   /// Which particles cannot touch it for a while is known.
   virtual bool is_bounded() const = 0;
@@ -245,7 +245,7 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
   {
     constexpr double anywhere = 1.0e100;
     const ParticleState particles = system->step().particles();
-    contacts.find_candidates(surface(), particles, this->atom->mask, this->groupbit,
+    contacts.find_candidates(surface(), at_rest, particles, this->atom->mask, this->groupbit,
                              is_bounded() ? this->neighbor->skin : anywhere, this->comm->nthreads);
     find_masses();
     are_listed(particles);
@@ -261,23 +261,17 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     for (int i = 0; i < this->atom->nlocal; i++) masses.push_back(system->masses().of_body(i));
   }
 
-  WallStep step_of_wall()
+  BodyHeat heat()
   {
-    WallStep wall{surface()};
-    wall.masses = masses.empty() ? nullptr : masses.data();
-    if (this->heat_flag) {
-      if (this->tstr) this->Twall = this->input->variable->compute_equal(this->tvar);
-      wall.temperature = this->atom->temperature;
-      wall.wall_temperature = this->Twall;
-      wall.heat_flow = this->atom->heatflow;
-    }
-    return wall;
+    if (!this->heat_flag) return {};
+    if (this->tstr) this->Twall = this->input->variable->compute_equal(this->tvar);
+    return {this->atom->temperature, this->Twall, this->atom->heatflow};
   }
-  /// As in LAMMPS, histories stand still while a run is set up, but what slips is set back.
+  /// As in LAMMPS, histories stand still while a run is set up, but what slips is set back; and where there
+  /// may be several contacts none lasts beyond zero overlap.
   void add_contacts()
   {
     constexpr std::size_t worth_a_thread = 100;    // candidates
-    const WallStep wall = step_of_wall();
     const bool accounts = system->account().is_asked();
     WorkAccount account;
     if (accounts) account = system->account().part_of_step();
@@ -286,7 +280,9 @@ template <class Stock> class AcceleratedWall : public Stock, public SystemFix {
     step.threads = static_cast<int>(std::clamp<std::size_t>(
         contacts.num_candidates() / worth_a_thread, 1, this->comm->nthreads));
     step.account = accounts ? &account : nullptr;
-    step.wall = &wall;
+    step.ends_at_zero_overlap = surface().most_contacts() > 1;
+    step.masses = masses.empty() ? nullptr : masses.data();
+    step.heat = heat();
     if (system->step().may_be_asked()) step.for_outputs = &for_outputs;
     contacts.compute(surface(), at_rest, system->step().particles(), step);
     if (accounts) system->account().add(account.sum);

@@ -31,7 +31,7 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
     return 1 + size_history;
   }
   void begin_run() override {}
-  const Talus::WallSurface &surface() const override;
+  const Talus::LargeBodyShape &surface() const override;
   void place() override;
   bool is_bounded() const override
   {

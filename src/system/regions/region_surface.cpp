@@ -195,10 +195,6 @@ Vector3<double> PeriodicSpan::wrapped(Vector3<double> x) const
 
 /* ---------------------------------------------------------------------- */
 
-/* Of all equal-style variables the first whose value depends on more than the time, or "". */
-
-/* ---------------------------------------------------------------------- */
-
 RegionAtRest::RegionAtRest(Region &moving) :
     region(moving), dynamic(moving.dynamic), turns(moving.rotateflag)
 {
