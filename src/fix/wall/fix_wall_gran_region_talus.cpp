@@ -30,17 +30,15 @@ std::string FixWallGranRegionTalus::what_reads_arrays()
              : "its region may move with particles: v_" + variable + " reads more than time";
 }
 
-void FixWallGranRegionTalus::begin_run()
+const LargeBodyShape &FixWallGranRegionTalus::begin_run()
 {
-  wall = std::make_unique<RegionShape>(RegionShape::MovedBy::ITSELF, *region, *domain);
+  surface = std::make_unique<RegionShape>(RegionShape::MovedBy::ITSELF, *region, *domain);
+  return *surface;
 }
 
-void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
+void FixWallGranRegionTalus::are_listed()
 {
-  if (!wall->is_dynamic()) return;
-  wall->are_listed(BodyCandidates::bounds_of_search(
-      BodyFrame{}, particles, atom->mask, groupbit, neighbor->skin,
-      contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
+  if (surface->is_dynamic()) surface->are_listed(wall.bounds_of_search());
 }
 
 void FixWallGranRegionTalus::write_restart(FILE *file)

@@ -23,12 +23,11 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
  protected:
   bigint stock_size(const double *data) const override;
-  void begin_run() override;
-  const Talus::LargeBodyShape &surface() const override { return *wall; }
-  void place() override { wall->place(); }
-  bool is_bounded() const override { return wall->has_distance() && !radii_vary(); }
-  void are_listed(const Talus::ParticleState &particles) override;
-  double displacement() const override { return wall->displacement(); }
+  const Talus::LargeBodyShape &begin_run() override;
+  void place() override { surface->place(); }
+  bool is_bounded() const override { return surface->has_distance(); }
+  void are_listed() override;
+  double displacement() const override { return surface->displacement(); }
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override;
 
@@ -39,7 +38,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void add(int i, int part, const Talus::HistoryValues &values) override;
 
  private:
-  std::unique_ptr<Talus::RegionShape> wall;
+  std::unique_ptr<Talus::RegionShape> surface;    // of this run
 };
 
 }    // namespace LAMMPS_NS

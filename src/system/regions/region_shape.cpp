@@ -41,6 +41,7 @@ void RegionShape::take(Region &now, const Domain &domain)
   in_frame = !by_itself || (simple && dynamic);
   motion = RegionMotion();
   parts = bounded ? RegionParts(*region) : RegionParts();
+  listed_poses.clear();
   all_of_body.resize(by_itself ? 0 : region->cmax);
 }
 
@@ -80,7 +81,8 @@ void RegionShape::are_listed(const Eigen::AlignedBox3d &box)
 
 double RegionShape::displacement() const
 {
-  return dynamic && bounded ? parts.largest_displacement(listed_poses, listed_box) : 0.0;
+  if (!dynamic || listed_poses.empty()) return 0.0;
+  return parts.largest_displacement(listed_poses, listed_box);
 }
 
 /* LAMMPS computes the point of contact only if the region turns, but reads it if the region changes
