@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What a wall needs to know of a region of LAMMPS beyond what its contacts are: which particles
-// cannot touch its surface for a while, and how far that surface moves.
+// What RegionShape needs to know of a region of LAMMPS beyond what its contacts are: which particles
+// cannot touch its surface for a while, how far that surface moves, and where its periodic images are.
 //
 // All lengths and positions are those of the simulation box.
 
@@ -132,21 +132,8 @@ class PeriodicSpan {
   double low[3] = {0.0, 0.0, 0.0}, period[3] = {0.0, 0.0, 0.0};    // 0: none
 };
 
-/// While it exists, a simple region answers as it was before it moved.
-class RegionAtRest {
- public:
-  explicit RegionAtRest(LAMMPS_NS::Region &region);
-  ~RegionAtRest();
-  RegionAtRest(const RegionAtRest &) = delete;
-  RegionAtRest &operator=(const RegionAtRest &) = delete;
-
- private:
-  LAMMPS_NS::Region &region;
-  const int dynamic, turns;
-};
-
 /// Asks a simple region in its own frame: sine and cosine of a step are computed once, where LAMMPS
-/// does it again for every question. Answers have its bits.
+/// does it again for every question. Answers have its bits. With a motion at rest: as if it did not move.
 class RegionInFrame {
  public:
   /// Both must exist as long as this does; `motion` that of the region, after prematch().
