@@ -69,6 +69,16 @@ void BodyContacts::follow_candidates()
     history.begin_step();
 }
 
+Eigen::AlignedBox3d BodyContacts::bounds_of_search(const BodyFrame &frame,
+                                                   const ParticleState &view, const int *mask,
+                                                   int group, double skin) const
+{
+  return BodyCandidates::bounds_of_search(frame, view, mask, group, skin,
+                                          largest_pulloff_distance(view, mask, group));
+}
+
+/* How far contacts of these particles last beyond zero overlap at most (length). */
+
 double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,
                                               int group) const
 {

@@ -59,8 +59,10 @@ class BodyContacts {
 
   std::size_t num_candidates() const { return candidates.size(); }
 
-  /// How far contacts of these particles last beyond zero overlap at most (length).
-  double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
+  /// The box, in the frame of the body, around all that the shape may be asked for from find_candidates()
+  /// with these arguments to the next; empty without particles.
+  Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const ParticleState &view,
+                                       const int *mask, int group, double skin) const;
 
   /// The body has moved so far that particles must be listed again.
   bool is_stale(const BodyFrame &frame, double skin) const
@@ -110,6 +112,7 @@ class BodyContacts {
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
+  double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
 
   std::shared_ptr<const LawTable> laws = std::make_shared<const LawTable>();
   bool with_history = false;

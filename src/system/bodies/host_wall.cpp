@@ -117,10 +117,8 @@ void HostWall::list(double moved)
 
 Eigen::AlignedBox3d HostWall::bounds_of_search() const
 {
-  const ParticleState particles = system.step().particles();
-  return BodyCandidates::bounds_of_search(
-      at_rest, particles, atom->mask, fix->groupbit, neighbor->skin,
-      contacts.largest_pulloff_distance(particles, atom->mask, fix->groupbit));
+  return contacts.bounds_of_search(at_rest, system.step().particles(), atom->mask, fix->groupbit,
+                                   neighbor->skin);
 }
 
 /* As LAMMPS has them here: those of bodies, but neither converted nor infinite. */

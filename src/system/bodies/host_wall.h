@@ -66,7 +66,7 @@ class HostWall : protected LAMMPS_NS::Pointers {
   /// `displacement`: how far a point of the surface has gone at most since particles were listed. Returns
   /// whether they have been listed anew.
   bool list_if_needed(double displacement);
-  /// See BodyCandidates::bounds_of_search(), of those that are listed.
+  /// See BodyContacts, of those that are listed.
   Eigen::AlignedBox3d bounds_of_search() const;
   /// Adds the forces of a step to the particles.
   void compute(const BodyHeat &heat);

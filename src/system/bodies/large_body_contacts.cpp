@@ -74,9 +74,7 @@ Eigen::AlignedBox3d LargeBody::bounds_of_focus(const ParticleState &particles, c
   constexpr double everywhere = 1.0e100;
   if (system.shapes())
     return {Eigen::Vector3d::Constant(-everywhere), Eigen::Vector3d::Constant(everywhere)};
-  return BodyCandidates::bounds_of_search(
-      frame(), particles, mask, group_bits(), neighbor->skin,
-      contacts.largest_pulloff_distance(particles, mask, group_bits()));
+  return contacts.bounds_of_search(frame(), particles, mask, group_bits(), neighbor->skin);
 }
 
 /* Particles with a shape belong to no group here: the system computes their contacts. */
