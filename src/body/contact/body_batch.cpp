@@ -146,19 +146,16 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits)
 {
   unsigned ended = 0;
-  for (unsigned rest = bits; rest; rest &= rest - 1U) {
-    const int k = __builtin_ctz(rest);
-    if (has_just_ended(task->history.record(first + k).c[3], task->step.advance)) ended |= 1U << k;
-  }
-  if (!ended) return 0;
-  widened = in_body;
-  for (int k = 0; k < width; k++) widened.radius[k] *= 2.0;
-  EightContacts far;
-  ended &= task->shape.touches_eight(widened, width, far);
-  for (unsigned rest = ended; rest; rest &= rest - 1U) {
-    const int k = __builtin_ctz(rest);
+  for (; bits; bits &= bits - 1U) {
+    const int k = __builtin_ctz(bits);
+    if (!has_just_ended(task->history.record(first + k).c[3], task->step.advance)) continue;
+    const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
+    const double r = in_body.radius[k];
+    SurfaceContact far;
+    if (!task->shape.touches(x, 2.0 * r, far)) continue;
+    far.overlap -= r;
     contacts.set(k, far);
-    contacts.overlap[k] -= in_body.radius[k];
+    ended |= 1U << k;
   }
   return ended;
 }

@@ -4,8 +4,8 @@
 // a time. Everything is computed in the frame of the body, in which the body is at rest and
 // histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
 // laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results,
-// body_batch_outputs.cpp tells what outputs and warnings ask for,
-// body_batch_vertices.cpp does what only meshes whose vertices move need.
+// body_batch_outputs.cpp keeps what outputs and warnings ask for, body_batch_vertices.cpp does what
+// only meshes whose vertices move need.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What is told of contacts whose forces are known: the deepest one, work, parts, and all of them for outputs.
+// What is kept of contacts: the deepest one, work, loads of parts, and all of them for outputs.
 
 #include "body/contact/body_batch.h"
 

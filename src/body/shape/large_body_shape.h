@@ -70,17 +70,6 @@ struct EightContacts {
     curvature[k] = one.curvature;
     part[k] = one.part;
   }
-  /// That of the same sphere, with another radius.
-  void set(int k, const EightContacts &other)
-  {
-    for (int d = 0; d < 3; d++) {
-      normal[d][k] = other.normal[d][k];
-      velocity[d][k] = other.velocity[d][k];
-    }
-    overlap[k] = other.overlap[k];
-    curvature[k] = other.curvature[k];
-    part[k] = other.part[k];
-  }
 };
 
 /// A part of a body near some particle, and its distance at the time when it was listed.
@@ -149,7 +138,8 @@ class LargeBodyShape {
 
   /// Contacts tell curvature and velocity as well, and the part also where there is one contact at
   /// most. Of all others the surface is flat on the scale of particles, at rest in the frame of the
-  /// body, and without parts unless there are several contacts.
+  /// body, and without parts unless there are several contacts. Each contact tells all of it, and laws of
+  /// second order take the velocity for that of the whole step.
   virtual bool describes_surface() const { return false; }
 
   /// Of eight spheres the bits of those that the surface may be within; all that it is have theirs. To
