@@ -95,13 +95,13 @@ class BodyCandidatesTest : public testing::TestWithParam<int> {
 TEST_P(BodyCandidatesTest, HoldWhileTheSurfaceHasGoneHalfASkin)
 {
   place_at(0.0);
-  candidates.list(*shape, frame, view(), mask.data(), 1, skin, 0.0, 1);
+  candidates.list(*shape, frame, view(), mask.data(), 1, skin, 0.0, {}, 1);
   int lists = 1, touching = 0;
   constexpr int steps = 600;
   for (int step = 1; step <= steps; step++) {
     place_at(2.0 * pi * step / steps);
     if (candidates.are_stale(frame, skin)) {
-      candidates.list(*shape, frame, view(), mask.data(), 1, skin, 0.0, 1);
+      candidates.list(*shape, frame, view(), mask.data(), 1, skin, 0.0, {}, 1);
       lists++;
     }
     ASSERT_EQ(touching_and_not_listed(touching), 0) << step;

@@ -276,6 +276,97 @@ TEST_P(BodyContactsTest, HistoryIsKeptWhileTouchingAndForgottenAfter)
   for (std::size_t n = 0; n < touching.size(); n++) EXPECT_EQ(has_history(touching[n]), n % 3 == 2);
 }
 
+/// A surface that moves by itself and is curved.
+class Described : public LargeBodyShape {
+ public:
+  Described(const LargeBodyShape &of, const Vector3<double> &velocity, double curvature) :
+      of(of), velocity(velocity), curvature(curvature)
+  {
+  }
+  bool touches(const Vector3<double> &x, double radius, SurfaceContact &contact) const override
+  {
+    contact.velocity = velocity;
+    contact.curvature = curvature;
+    contact.part = 3;
+    const bool any = of.touches(x, radius, contact);
+    contact.part = 3;
+    return any;
+  }
+  double distance_bound(const Vector3<double> &x) const override { return of.distance_bound(x); }
+  Vector3<double> reference_point() const override { return of.reference_point(); }
+  bool describes_surface() const override { return true; }
+
+ private:
+  const LargeBodyShape &of;
+  Vector3<double> velocity;
+  double curvature;
+};
+
+// As the same surface at rest sees particles that move the other way.
+TEST_P(BodyContactsTest, ASurfaceThatMovesByItself)
+{
+  const Described moving(*shape, {0.5, -2.0, 0.25}, 0.0);
+  find();
+  ComputedContacts told;
+  BodyStep step = step_of(true);
+  step.for_outputs = &told;
+  force.assign(p.size(), Vector{});
+  torque.assign(p.size(), Vector{});
+  contacts.compute(moving, frame, view(), step);
+  int count = 0;
+  told.for_each([&](const ContactReport &one) { count += one.part == 3; });
+  EXPECT_GT(count, 20);
+  const std::vector<Vector> seen = force;
+
+  for (Vector &v : p.v) v = {v[0] - 0.5, v[1] + 2.0, v[2] - 0.25};
+  BodyContacts others;
+  others.set_laws(laws);
+  others.history.keep(false);
+  others.find_candidates(*shape, frame, view(), mask.data(), 1, skin, threads());
+  force.assign(p.size(), Vector{});
+  torque.assign(p.size(), Vector{});
+  others.compute(*shape, frame, view(), step_of(true));
+  EXPECT_EQ(force, seen);
+}
+
+// R_eff of Hertz is that of both surfaces.
+TEST_P(BodyContactsTest, ACurvedSurface)
+{
+  contacts.set_laws(single_law({named::Normal::HERTZ, named::Tangential::MULTISTEP}, true));
+  std::fill(p.v.begin(), p.v.end(), Vector{});
+  std::fill(p.omega.begin(), p.omega.end(), Vector{});
+  find();
+  compute(false);
+  const std::vector<Vector> of_flat = force;
+  const double curvature = -0.3;
+  force.assign(p.size(), Vector{});
+  contacts.compute(Described(*shape, {0.0, 0.0, 0.0}, curvature), frame, view(), step_of(false));
+  int touching = 0;
+  for (int i = 0; i < p.size(); i++) {
+    const double factor = 1.0 / std::sqrt(1.0 + curvature * p.radius[i]);
+    touching += norm(force[i]) > 0.0;
+    ASSERT_LE(norm(axpy(-factor, of_flat[i], force[i])), 1e-13 * norm(force[i])) << i;
+  }
+  EXPECT_GT(touching, 20);
+}
+
+TEST_P(BodyContactsTest, OtherMasses)
+{
+  std::vector<double> masses;
+  for (int i = 0; i < p.size(); i++) masses.push_back((1.0 + i % 3) * p.mass[i]);
+  find();
+  BodyStep step = step_of(false);
+  step.masses = masses.data();
+  force.assign(p.size(), Vector{});
+  torque.assign(p.size(), Vector{});
+  contacts.compute(*shape, frame, view(), step);
+  const std::vector<Vector> of_step = force;
+  std::copy(masses.begin(), masses.end(), p.mass.begin());
+  std::fill(p.mass_override.begin(), p.mass_override.end(), 0.0);
+  compute(false);
+  EXPECT_EQ(force, of_step);
+}
+
 TEST_P(BodyContactsTest, OnlyMembersOfTheGroupAreTouched)
 {
   for (int i = 0; i < p.size(); i++) mask[i] = i % 2 ? 1 | 8 : 2 | 8;

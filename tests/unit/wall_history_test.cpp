@@ -4,7 +4,6 @@
 // places that the stock fix gives them.
 
 #include "body/contact/body_history.h"
-#include "body/contact/wall_surface.h"
 
 #include <gtest/gtest.h>
 

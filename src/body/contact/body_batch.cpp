@@ -49,17 +49,16 @@ void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t
   task = &new_task;
   touching = 0.0;
   load_of_lanes[0] = load_of_lanes[1] = Vector3<Vec8>{};
-  const bool several = task->shape.most_contacts() > 1, by_parts = several && !task->wall;
-  if (task->wall) set_all_points();
+  described = task->shape.describes_surface();
+  const bool several = task->shape.most_contacts() > 1;
   for (law_index = 0; law_index < task->laws.num_laws(); law_index++) {
     law = task->laws.distinct_law(law_index);
     if (task->frame.vertices) vectors = law.vectors_in_history();
-    for (std::size_t c = begin; c < end_of_range && by_parts; c++) look_at_parts(c, end_of_range);
-    for (std::size_t c = begin / width * width; c < end_of_range && !by_parts; c += width) {
+    for (std::size_t c = begin / width * width; c < end_of_range; c += width) {
       const int low = static_cast<int>(begin > c ? begin - c : 0),
                 high = static_cast<int>(std::min<std::size_t>(end_of_range - c, width));
       if (several)
-        look_at_eight_of_wall(c, low, high);
+        look_at_eight_by_parts(c, low, high, end_of_range);
       else
         look_at_eight(c, low, high);
     }
@@ -147,19 +146,16 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits)
 {
   unsigned ended = 0;
-  for (unsigned rest = bits; rest; rest &= rest - 1U) {
-    const int k = __builtin_ctz(rest);
-    if (has_just_ended(task->history.record(first + k).c[3], task->advance)) ended |= 1U << k;
-  }
-  if (!ended) return 0;
-  widened = in_body;
-  for (int k = 0; k < width; k++) widened.radius[k] *= 2.0;
-  EightContacts far;
-  ended &= task->shape.touches_eight(widened, width, far);
-  for (unsigned rest = ended; rest; rest &= rest - 1U) {
-    const int k = __builtin_ctz(rest);
-    for (int d = 0; d < 3; d++) contacts.normal[d][k] = far.normal[d][k];
-    contacts.overlap[k] = far.overlap[k] - in_body.radius[k];
+  for (; bits; bits &= bits - 1U) {
+    const int k = __builtin_ctz(bits);
+    if (!has_just_ended(task->history.record(first + k).c[3], task->step.advance)) continue;
+    const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
+    const double r = in_body.radius[k];
+    SurfaceContact far;
+    if (!task->shape.touches(x, 2.0 * r, far)) continue;
+    far.overlap -= r;
+    contacts.set(k, far);
+    ended |= 1U << k;
   }
   return ended;
 }
@@ -181,10 +177,18 @@ void BodyBatch::take(std::size_t first, unsigned bits)
   }
   pack_lanes(&radius[filled], spheres.radius, bits);
   pack_lanes(&batch.overlap[filled], contacts.overlap, bits);
-  if (task->wall) take_points(bits);
+  if (described) take_surface(bits);
   filled += store_places(&candidate_of_lane[filled], static_cast<std::uint32_t>(first), bits);
   prefetch_contacts(first, bits);
   if (filled > ContactBatch::width - width) flush();    // no room for eight more
+}
+
+void BodyBatch::take_surface(unsigned bits)
+{
+  for (int d = 0; d < 3; d++) pack_lanes(&surface_velocity[d][filled], contacts.velocity[d], bits);
+  pack_lanes(&curvature[filled], contacts.curvature, bits);
+  for (int lane = filled; bits; bits &= bits - 1U, lane++)
+    part_of_lane[lane] = contacts.part[__builtin_ctz(bits)];
 }
 
 namespace {
@@ -198,7 +202,7 @@ class EndsOfContacts : public BodyHistory::Ends {
   }
   bool lasts(const Record &history) const override
   {
-    return has_just_ended(history.c[3], task.advance);
+    return has_just_ended(history.c[3], task.step.advance);
   }
   int look_further(SurfaceContact *found) const override
   {
@@ -208,7 +212,7 @@ class EndsOfContacts : public BodyHistory::Ends {
         task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
     const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
     for (int k = 0; k < count; k++) found[k].overlap -= further * r;
-    return count;
+    return std::max(count, 0);
   }
 
  private:
@@ -220,30 +224,39 @@ class EndsOfContacts : public BodyHistory::Ends {
 
 }    // namespace
 
-void BodyBatch::look_at_parts(std::size_t c, std::size_t last)
+/* What cannot touch is not asked for, unless a contact may end. */
+
+void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high, std::size_t last)
 {
-  prefetch_parts(c, last);
+  load_spheres(task->index + first, low, high);
+  const EightSpheres &in_body = spheres_in_body();
+  const unsigned near = task->shape.may_touch_eight(in_body);
+  for (int k = low; k < high; k++) {
+    prefetch_parts(first + k, last);
+    if ((near >> k & 1U) || (task->with_history && task->history.count(first + k) > 0))
+      look_at_parts(first, k, in_body);
+  }
+}
+
+void BodyBatch::look_at_parts(std::size_t first, int k, const EightSpheres &in_body)
+{
+  const std::size_t c = first + k;
   if (task->laws.law_index(task->row_of(c)) != law_index) return;
-  const ParticleState &view = task->view;
-  const int i = task->index[c];
-  const Vector3<double> place_now = view.position_at(i), x = task->frame.point_to_body(place_now);
-  const double r = view.radius_at(i);
+  const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
+  const double r = spheres.radius[k];
   const double reach = law.normal().lasts_beyond_contact ? task->pulloff_distance_of(c, r) : 0.0;
-  SurfaceContact found[LargeBodyShape::max_contacts];
   bool may_touch;
   const NearParts near = task->candidates.parts_near(task->frame, c, x, r + reach, may_touch);
   int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;
-  for (int k = 0; k < count; k++) found[k].overlap -= reach;
-  std::size_t slot = 0;
-  Vector3<double> before[LargeBodyShape::max_contacts];
+  if (count < 0) return;
+  for (int n = 0; n < count; n++) found[n].overlap -= reach;
   if (task->with_history) {
-    slot = task->history.first_slot(c);
     const EndsOfContacts ends(*task, c, x, r);
-    count = task->history.continue_contacts(c, found, count, before,
-                                            law.tangential().second_order ? &ends : nullptr);
+    count = task->history.continue_found(c, found, count, slots_of_found, before,
+                                         law.tangential().second_order ? &ends : nullptr);
   }
-  if (count) view.prefetch_for_contact(i);
-  for (int k = 0; k < count; k++) append(c, slot + k, place_now, r, found[k], before[k]);
+  if (count) task->view.prefetch_for_contact(task->index[c]);
+  for (int n = 0; n < count; n++) append(c, k, n);
 }
 
 /* Candidates stand far from each other in memory: what one needs is prefetched a while before.
@@ -253,31 +266,37 @@ void BodyBatch::prefetch_parts(std::size_t c, std::size_t last) const
 {
   const ParticleState &view = task->view;
   view.prefetch_position(task->index[c + position_ahead]);
-  if (c + list_ahead >= last) return;
+  if (c + list_ahead >= last || !task->candidates.have_parts()) return;
   task->candidates.prefetch_list(c + list_ahead, view.radius_at(task->index[c + list_ahead]));
   task->candidates.prefetch_parts(c + parts_ahead, view.radius_at(task->index[c + parts_ahead]),
                                   task->shape);
 }
 
-void BodyBatch::append(std::size_t c, std::size_t slot, const Vector3<double> &x, double r,
-                       const SurfaceContact &contact, const Vector3<double> &normal_before)
+/* Contact n of candidate c, the sphere in lane k. */
+
+void BodyBatch::append(std::size_t c, int k, int n)
 {
-  const double at[3] = {x.x, x.y, x.z};
-  const double n[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
+  const SurfaceContact &contact = found[n];
+  const double normal[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
   for (int d = 0; d < 3; d++) {
-    place[d][filled] = at[d];
-    batch.normal[d][filled] = n[d];
+    place[d][filled] = spheres.center[d][k];
+    batch.normal[d][filled] = normal[d];
   }
-  radius[filled] = r;
+  radius[filled] = spheres.radius[k];
   batch.overlap[filled] = contact.overlap;
   candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
-  slot_of_lane[filled] = static_cast<std::uint32_t>(slot);
+  slot_of_lane[filled] = slots_of_found[n];
   part_of_lane[filled] = contact.part;
+  if (described) {
+    const double velocity[3] = {contact.velocity.x, contact.velocity.y, contact.velocity.z};
+    for (int d = 0; d < 3; d++) surface_velocity[d][filled] = velocity[d];
+    curvature[filled] = contact.curvature;
+  }
   if (needs_normal_changes()) {
     const MovingVertices *const vertices = task->frame.vertices;
-    const bool turns = vertices && task->advance;
+    const bool turns = vertices && task->step.advance;
     set_normal_change(filled, contact.normal,
-                      turns ? vertices->turn(contact.part)(normal_before) : normal_before);
+                      turns ? vertices->turn(contact.part)(before[n]) : before[n]);
   }
   if (++filled == ContactBatch::width) flush();
 }
@@ -290,110 +309,25 @@ void BodyBatch::flush()
   end = (filled + lanes - 1) / lanes * lanes;
   std::fill(candidate_of_lane + filled, candidate_of_lane + end, candidate_of_lane[filled - 1]);
   std::fill(slot_of_lane + filled, slot_of_lane + end, slot_of_lane[filled - 1]);
-  if (task->wall && !task->wall->surface.everywhere())
-    std::fill(curvature + filled, curvature + end, 0.0);
+  if (described) std::fill(curvature + filled, curvature + end, 0.0);
+  const BodyStep &step = task->step;
   gather();
-  batch.lag = task->lag;
-  if (!task->wall) notice_deeper();
-  if (task->record_contacts) begin_records();
-  run_laws(batch, law_index, 0, end, {task->laws, task->dt, task->advance, task->account});
-  if (task->with_history && task->advance) keep_histories();
-  if (task->account) account();
-  if (task->record_parts) record_parts();
-  if (task->record_corners) record_corners();
+  batch.lag = step.lag;
+  notice_deeper();
+  if (step.for_outputs) begin_records();
+  run_laws(batch, law_index, 0, end, {task->laws, step.dt, step.advance, step.account});
+  if (task->with_history && step.advance) keep_histories();
+  if (step.account) account();
+  if (step.touched) record_parts();
+  if (step.corners) record_corners();
   if (task->frame.turned) rotate_to_space();
   add_to_particles();
-  if (task->record_contacts) complete_records();
-  if (task->wall)
-    add_heat();
-  else
-    add_load();
-  if (task->virial) add_virials();
+  if (step.for_outputs) complete_records();
+  add_load();
+  if (step.heat.flow && law.conducts_heat()) add_heat();
+  if (step.virial) add_virials();
   touching += filled;
   filled = 0;
-}
-
-/* Contacts of eight at a time are compared with the deepest one so far. */
-
-void BodyBatch::notice_deeper()
-{
-  const auto is_deeper = [this](int k) {
-    return load8(&batch.overlap[k]) > deepest_so_far.overlap_ratio * load8(&radius[k]);
-  };
-  bool any_deeper = false;
-  for (int k = 0; k < end && !any_deeper; k += lanes) any_deeper = any(is_deeper(k));
-  if (!any_deeper) return;
-  for (int lane = 0; lane < filled; lane++) {
-    const double ratio = batch.overlap[lane] / radius[lane];
-    if (!(ratio > deepest_so_far.overlap_ratio)) continue;
-    deepest_so_far = {ratio, task->candidates.atom(candidate_of_lane[lane]), part_of(lane)};
-  }
-}
-
-void BodyBatch::account()
-{
-  for (int lane = 0; lane < filled; lane++) {
-    const EnergyByCause contact_work = work_of_lane(batch, lane);
-    work += contact_work;
-    add_work(*task->account, task->candidates.atom(candidate_of_lane[lane]), contact_work, 1.0);
-  }
-}
-
-/* For outputs; -1 without parts. */
-
-int BodyBatch::part_of(int lane) const
-{
-  if (!task->wall && task->shape.most_contacts() == 1) return -1;
-  const MovingVertices *const vertices = task->frame.vertices;
-  return vertices ? vertices->own_triangle(part_of_lane[lane]) : part_of_lane[lane];
-}
-
-/* What laws are about to read: some of them change it. */
-
-void BodyBatch::begin_records()
-{
-  for (int lane = 0; lane < filled; lane++) {
-    ComputedContact &one = contacts_for_outputs.emplace_back();
-    one.state = state_of_lane(batch, lane);
-    one.row = batch.coefficients[lane];
-  }
-}
-
-/* Forces and torques are in space axes by now. */
-
-void BodyBatch::complete_records()
-{
-  const std::size_t before = contacts_for_outputs.size() - filled;
-  for (int lane = 0; lane < filled; lane++) {
-    ComputedContact &one = contacts_for_outputs[before + lane];
-    ContactReport &to = one.report;
-    to.i = task->candidates.atom(candidate_of_lane[lane]);
-    to.part = part_of(lane);
-    to.center[0] = lane_of(place, lane);
-    to.normal = task->frame.to_space(one.state.normal);
-    to.overlap = one.state.overlap;
-    to.force = lane_of(batch.force, lane);
-    if (law.has_friction()) to.torque_per_radius = lane_of(batch.torque_per_radius, lane);
-    if (law.resists()) to.twisting_torque = lane_of(batch.twisting_torque, lane);
-    if (law.conducts_heat()) to.heat_flow = batch.heat_flow[lane];
-    for (int n = 0; task->with_history && n < 4 * task->history_records; n++)
-      to.history[n] = batch.history[n][lane];
-    to.set_arms_of_spheres(radius[lane], 0.0);
-  }
-}
-
-void BodyBatch::record_parts()
-{
-  for (int lane = 0; lane < filled; lane++) {
-    const Vector3<double> n = lane_of(batch.normal, lane), f = lane_of(batch.force, lane);
-    const Vector3<double> v = lane_of(batch.velocity, lane);
-    const double pressed = dot(f, n);
-    const Vector3<double> slip =
-        v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
-    const Vector3<double> shear =
-        law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
-    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip)});
-  }
 }
 
 }    // namespace Talus

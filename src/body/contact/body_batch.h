@@ -4,8 +4,8 @@
 // a time. Everything is computed in the frame of the body, in which the body is at rest and
 // histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
 // laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results,
-// body_batch_walls.cpp does what only walls of LAMMPS need, body_batch_vertices.cpp what only meshes
-// whose vertices move do.
+// body_batch_outputs.cpp keeps what outputs and warnings ask for, body_batch_vertices.cpp does what
+// only meshes whose vertices move need.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
@@ -15,8 +15,8 @@
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
 #include "body/contact/body_load.h"
+#include "body/contact/body_step.h"
 #include "body/contact/computed_contacts.h"
-#include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "body/shape/moving_vertices.h"
@@ -31,21 +31,6 @@
 
 namespace Talus {
 
-/// Force of one contact on a part of the body in one step.
-struct TouchedPart {
-  int part;
-  double normal_force;      ///< > 0: pressed
-  Vector3<double> force;    ///< on the body, its frame
-  Vector3<double> shear;    ///< the tangential part of it
-  double shear_power;       ///< that force times the velocity of the surfaces past each other
-};
-
-/// Force of one contact on the corners of a triangle in one step, see MovingVertices.
-struct TouchedCorners {
-  int triangle;
-  Vector3<double> force[3];
-};
-
 /// One evaluation of all contacts of a body.
 struct BodyTask {
   const LargeBodyShape &shape;
@@ -56,23 +41,16 @@ struct BodyTask {
   const int
       *index;    ///< of each candidate in `view`; `spare` more behind the last, any that exist
   BodyHistory &history;
-  double dt;
-  double lag;      ///< see ContactStep
-  bool advance;    ///< false: histories are only read
-  bool exact;      ///< sum the load without rounding as well
-  bool record_parts, record_corners, record_contacts;
-  const WorkAccount *account;    ///< nullptr, or asks for the work of contacts
-  double *virial;                ///< see BodyStep
-  bool with_history;             ///< of any law
-  int history_records;           ///< see LawTable
-  const WallStep *wall;          ///< see BodyStep
+  const BodyStep &step;
+  bool with_history;      ///< of any law
+  int history_records;    ///< see LawTable
 
   static constexpr int spare = 128;
 
   /// How far a contact of a candidate that has begun lasts beyond zero overlap (length).
   double pulloff_distance_of(std::size_t c, double radius) const
   {
-    return laws.pulloff_distance(row_of(c), radius);
+    return step.ends_at_zero_overlap ? 0.0 : laws.pulloff_distance(row_of(c), radius);
   }
 
   /// Row of the table for a candidate; types are not read where all have the same law.
@@ -104,8 +82,7 @@ class BodyBatch {
   std::vector<ComputedContact> contacts_for_outputs;    ///< the same
   EnergyByCause work;                                   ///< if asked for
 
-  /// The deepest contact since forget_deepest(), if it is deeper than DeepestContact::watched; not of
-  /// walls of LAMMPS.
+  /// The deepest contact since forget_deepest(), if it is deeper than DeepestContact::watched.
   const DeepestInBody &deepest() const { return deepest_so_far; }
   void forget_deepest() { deepest_so_far = {}; }
 
@@ -123,10 +100,11 @@ class BodyBatch {
   unsigned just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits);
   void take(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
-  void look_at_parts(std::size_t candidate, std::size_t last);
+  void take_surface(unsigned bits);
+  void look_at_eight_by_parts(std::size_t first, int low, int high, std::size_t last);
+  void look_at_parts(std::size_t first, int k, const EightSpheres &in_body);
   void prefetch_parts(std::size_t candidate, std::size_t last) const;
-  void append(std::size_t candidate, std::size_t slot, const Vector3<double> &x, double r,
-              const SurfaceContact &contact, const Vector3<double> &normal_before);
+  void append(std::size_t candidate, int k, int n);
   void flush();
   void notice_deeper();
   void account();
@@ -134,16 +112,6 @@ class BodyBatch {
   void begin_records();
   void complete_records();
   void record_parts();
-
-  // walls of LAMMPS
-  void look_at_eight_of_wall(std::size_t first, int low, int high);
-  void look_at_wall(std::size_t candidate);
-  void set_all_points();
-  void take_points(unsigned bits);
-  void set_point(int lane, const WallSurface::Point &point);
-  void see_from_wall(Motion &m, int k) const;
-  void gather_temperatures();
-  void add_heat();
 
   // meshes whose vertices move
   void find_points(int k);
@@ -158,6 +126,9 @@ class BodyBatch {
   void see_changes_from_body(int k);
   void see_from_body(Motion &m, int k);
   void run_past(Motion &m, int k);
+  void gather_masses(Motion &m, int k) const;
+  void gather_temperatures();
+  void add_heat();
   Vector3<double> normal_before(int lane, const Vector3<double> &velocity) const;
   void gather_normal_changes(int k);
   void set_normal_change(int lane, const Vector3<double> &normal, const Vector3<double> &before);
@@ -190,17 +161,16 @@ class BodyBatch {
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
   std::uint32_t candidate_of_lane[ContactBatch::width] = {};
   std::uint32_t slot_of_lane[ContactBatch::width] = {};    // only with several contacts
-  int part_of_lane[ContactBatch::width] = {};              // the same, and of walls
-  alignas(64) Lanes place = {};                            // of particles, in space
+  int part_of_lane[ContactBatch::width] = {};    // the same, or if the surface is described
+  alignas(64) Lanes place = {};                  // of particles, in space
   alignas(64) double radius[ContactBatch::width];
   // only of meshes whose vertices move
   SurfacePoint point_of_lane[ContactBatch::width];
   HistoryVectors vectors;    // of the law
-  // only of walls
-  alignas(64) Lanes wall_velocity = {};
+  // only if the surface is described, else 0
+  bool described = false;
+  alignas(64) Lanes surface_velocity = {};
   alignas(64) double curvature[ContactBatch::width] = {};
-  SurfaceContact found_on_wall[WallSurface::most_of_wall];
-  WallSurface::Point points_of_wall[WallSurface::most_of_wall];
 
   Vector3<Vec8> load_of_lanes[2];    // force and torque on the body
   double touching = 0.0;
@@ -208,6 +178,10 @@ class BodyBatch {
   // in space, in the frame of a body that moves, and with radii as far as contacts last
   EightSpheres spheres{}, seen{}, widened{};
   EightContacts contacts{};
+  // of one sphere with several contacts: these, the slot of each, and the normal that it had
+  SurfaceContact found[LargeBodyShape::max_parts];
+  std::uint32_t slots_of_found[LargeBodyShape::max_parts] = {};
+  Vector3<double> before[LargeBodyShape::max_parts] = {};
 };
 
 }    // namespace Talus

@@ -51,20 +51,21 @@ void BodyBatch::gather()
     for (int q = 0; q < lanes; q++) index[q] = task->index[candidate_of_lane[k + q]];
     Motion m = task->view.motion_at([&](int q) { return index[q]; }, load8(&radius[k]),
                                     law.has_friction());
+    if (task->step.masses) gather_masses(m, k);
     const bool second_order = law.tangential().second_order;
-    if (second_order || task->account) gather_changes(index, k);
+    if (second_order || task->step.account) gather_changes(index, k);
     if (frame.moves) {
       if (second_order)
         see_from_body(m, k);
       else {
         m.velocity = frame.to_body(m.velocity - frame.velocity_at(vector_at(place, k)));
         m.omega = frame.to_body(m.omega - in_all_lanes<Vec8>(frame.state.omega));
-        if (task->account) see_changes_from_body(k);
+        if (task->step.account) see_changes_from_body(k);
       }
       m.inverse_mass = m.inverse_mass + splat<Vec8>(frame.inverse_mass);
     }
     if (frame.runs) run_past(m, k);
-    if (task->wall) see_from_wall(m, k);
+    if (described) m.velocity = m.velocity - vector_at(surface_velocity, k);
     if (frame.vertices) see_from_vertices(m, k);
     store_at(batch.velocity, k, m.velocity);
     store(&batch.inverse_mass[k], m.inverse_mass);
@@ -76,10 +77,10 @@ void BodyBatch::gather()
     }
     if (needs_normal_changes() && !task->history.several()) gather_normal_changes(k);
     if (task->with_history) gather_histories(k);
-    if (task->with_history && task->advance && frame.vertices) turn_histories(k);
+    if (task->with_history && task->step.advance && frame.vertices) turn_histories(k);
   }
   if (law.resists()) gather_resistance();
-  if (task->wall && task->wall->temperature) gather_temperatures();
+  if (task->step.heat.temperature) gather_temperatures();
   if (!task->laws.uniform()) gather_coefficients();
 }
 
@@ -91,7 +92,7 @@ void BodyBatch::see_from_body(Motion &m, int k)
   const BodyFrame &frame = task->frame;
   const Vector3<Vec8> x = vector_at(place, k), v = m.velocity, omega = m.omega;
   const Vec8 r = load8(&radius[k]);
-  m.velocity = frame.half_way.velocity_seen(v, x - splat<Vec8>(task->lag) * v);
+  m.velocity = frame.half_way.velocity_seen(v, x - splat<Vec8>(task->step.lag) * v);
   m.omega = frame.half_way.omega_seen(omega);
   const Vector3<Vec8> velocity =
       frame.present.velocity_seen(v + vector_at(batch.velocity_change, k), x);
@@ -136,22 +137,22 @@ Vector3<double> BodyBatch::normal_before(int lane, const Vector3<double> &veloci
   const Vector3<double> now{batch.normal[0][lane], batch.normal[1][lane], batch.normal[2][lane]};
   const Vector3<double> at =
       task->frame.point_to_body(Vector3<double>{place[0][lane], place[1][lane], place[2][lane]});
-  const Vector3<double> x = at - task->lag * velocity;
-  SurfaceContact found[LargeBodyShape::max_contacts];
+  const Vector3<double> x = at - task->step.lag * velocity;
+  SurfaceContact found_then[LargeBodyShape::max_parts];
   bool may_touch = true;
   const bool several = task->shape.most_contacts() > 1;
   const std::size_t c = candidate_of_lane[lane];
   const NearParts near =
       several ? task->candidates.parts_near(task->frame, c, x, radius[lane], may_touch)
               : NearParts{nullptr, nullptr};
-  const int count = may_touch ? task->shape.find_contacts(x, radius[lane], near, found) : 0;
+  const int count = may_touch ? task->shape.find_contacts(x, radius[lane], near, found_then) : 0;
   Vector3<double> nearest = now;
   double largest = 0.8;    // as of contacts that go on, see BodyHistory
   for (int n = 0; n < count; n++) {
-    const double cosine = dot(found[n].normal, now);
+    const double cosine = dot(found_then[n].normal, now);
     if (cosine <= largest) continue;
     largest = cosine;
-    nearest = found[n].normal;
+    nearest = found_then[n].normal;
   }
   return nearest;
 }
@@ -228,6 +229,22 @@ void BodyBatch::gather_coefficients()
   for (int k = 0; k < end; k++) batch.coefficients[k] = task->row_of(candidate_of_lane[k]);
 }
 
+void BodyBatch::gather_masses(Motion &m, int k) const
+{
+  alignas(64) double mass[lanes];
+  for (int q = 0; q < lanes; q++)
+    mass[q] = task->step.masses[task->candidates.atom(candidate_of_lane[k + q])];
+  m.inverse_mass = splat<Vec8>(1.0) / load8(mass);
+}
+
+void BodyBatch::gather_temperatures()
+{
+  const BodyHeat &heat = task->step.heat;
+  for (int k = 0; k < filled; k++)
+    batch.temperature_difference[k] =
+        heat.of_body - heat.temperature[task->candidates.atom(candidate_of_lane[k])];
+}
+
 void BodyBatch::keep_histories()
 {
   const std::uint32_t *const slot = slots();
@@ -275,6 +292,12 @@ void BodyBatch::add_to_particles()
   }
 }
 
+void BodyBatch::add_heat()
+{
+  for (int k = 0; k < filled; k++)
+    task->step.heat.flow[task->candidates.atom(candidate_of_lane[k])] += batch.heat_flow[k];
+}
+
 /* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and
    twisting resistance act as twisting torques of opposite sign: so forces and torques of particle
    and body balance exactly. */
@@ -295,7 +318,7 @@ void BodyBatch::add_load()
                          r * (vector_at(batch.torque_per_radius, k) - cross(normal, force)));
     load_of_lanes[0] = load_of_lanes[0] - force;
     load_of_lanes[1] = load_of_lanes[1] + torque;
-    for (int q = 0; q < std::min(lanes, filled - k) && task->exact; q++)
+    for (int q = 0; q < std::min(lanes, filled - k) && task->step.exact; q++)
       exact.add({-force.x[q], -force.y[q], -force.z[q]}, {torque.x[q], torque.y[q], torque.z[q]});
   }
 }
@@ -309,7 +332,7 @@ void BodyBatch::add_virials()
     const Vector3<double> f{batch.force[0][lane], batch.force[1][lane], batch.force[2][lane]};
     const Vector3<double> b{r * batch.normal[0][lane], r * batch.normal[1][lane],
                             r * batch.normal[2][lane]};
-    double *const v = task->virial + 6L * task->candidates.atom(candidate_of_lane[lane]);
+    double *const v = task->step.virial + 6L * task->candidates.atom(candidate_of_lane[lane]);
     v[0] += b.x * f.x;
     v[1] += b.y * f.y;
     v[2] += b.z * f.z;

@@ -78,7 +78,7 @@ void BodyBatch::see_from_vertices_order_2(Motion &m, int k)
     const Vector x{place[0][lane], place[1][lane], place[2][lane]}, v = lane_of(m.velocity, q),
                                                                     w = lane_of(m.omega, q);
     const double r = radius[lane];
-    const Vector v_then = turned(v - then.velocity_at(x - task->lag * v)),
+    const Vector v_then = turned(v - then.velocity_at(x - task->step.lag * v)),
                  w_then = turned(w - then.omega);
     const Vector v_now = v + Talus::lane_of(batch.velocity_change, lane) - now.velocity_at(x);
     const Vector rotation_now = r * (w - now.omega) + Talus::lane_of(batch.rotation_change, lane);

@@ -31,11 +31,10 @@ struct BodyCandidates::Search {
   const ParticleState &view;
   const int *mask;
   int group;
+  const std::vector<int> &to_keep;
   double margin, extent;    // extent: of the surface from the reference point
 
-  bool wants(int i) const { return mask[i] & group; }
-  Vector3<double> place(int i) const { return frame.point_to_body(view.position(i)); }
-  double reach(int i) const { return view.radius(i) + margin; }
+  bool keeps(int i) const { return std::binary_search(to_keep.begin(), to_keep.end(), i); }
   /// From the reference point, of bodies that move.
   double distance(const Vector3<double> &x) const
   {
@@ -47,7 +46,31 @@ struct BodyCandidates::Search {
   {
     return frame.moves ? std::min(distance, extent) + reach : 0.0;
   }
+  /// visit(i, place in the frame of the body, reach, whether the surface may be nearer than that) for
+  /// the particles of the group among those from `begin` to `end`.
+  template <class Visit> void each(int begin, int end, Visit visit) const;
 };
+
+template <class Visit> void BodyCandidates::Search::each(int begin, int end, Visit visit) const
+{
+  EightSpheres spheres;
+  const auto &center = spheres.center;
+  for (int first = begin; first < end; first += lanes) {
+    const auto place = [&](int k) { return view.place(std::min(first + k, end - 1)); };
+    view.spheres_at(place, spheres.center, spheres.radius);
+    const Vector3<Vec8> x =
+        frame.point_to_body(Vector3<Vec8>{load8(center[0]), load8(center[1]), load8(center[2])});
+    store(spheres.center[0], x.x);
+    store(spheres.center[1], x.y);
+    store(spheres.center[2], x.z);
+    store(spheres.radius, load8(spheres.radius) + splat<Vec8>(margin));
+    const unsigned bits = shape.may_touch_eight(spheres);
+    for (int k = 0, i = first; k < lanes && i < end; k++, i++)
+      if (mask[i] & group)
+        visit(i, Vector3<double>{center[0][k], center[1][k], center[2][k]}, spheres.radius[k],
+              (bits >> k & 1U) != 0);
+  }
+}
 
 void BodyCandidates::clear()
 {
@@ -60,7 +83,7 @@ void BodyCandidates::clear()
 
 void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
                           const ParticleState &view, const int *mask, int group, double skin,
-                          double beyond, int threads)
+                          double beyond, const std::vector<int> &to_keep, int threads)
 {
   clear();
   listed_frame = frame;
@@ -68,35 +91,11 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
   const double margin = beyond + (goes(frame) ? (1.0 + free_way) * skin : skin);
   const double extent =
       frame.moves ? (1.0 + 1.0e-9) * shape.extent_from(frame.origin) : 0.0;    // rounding
-  const Search search{shape, frame, view, mask, group, margin, extent};
+  const Search search{shape, frame, view, mask, group, to_keep, margin, extent};
   if (shape.most_contacts() == 1)
     list_near(search, shape.thread_safe() ? threads : 1);
   else
     list_with_parts(search);
-}
-
-/* Rounding must not hide a particle. */
-
-void BodyCandidates::list(const WallSurface &wall, const ParticleState &view, const int *mask,
-                          int group, double way, const std::function<bool(int)> &keep, int threads)
-{
-  clear();
-  const Vec8 wider = splat<Vec8>(1.000001), margin = splat<Vec8>(way);
-  std::vector<std::vector<int>> found(threads);
-  in_ranges(view.owned(), threads, [&](int t, int begin, int end) {
-    EightSpheres spheres;
-    for (int first = begin; first < end; first += lanes) {
-      const auto place = [&](int k) { return view.place(std::min(first + k, end - 1)); };
-      view.spheres_at(place, spheres.center, spheres.radius);
-      store(spheres.radius, wider * (load8(spheres.radius) + margin));
-      const unsigned bits = wall.may_touch(spheres, true);
-      for (int k = 0, i = first; k < lanes && i < end; k++, i++)
-        if ((mask[i] & group) && ((bits >> k & 1U) || keep(i))) found[t].push_back(i);
-    }
-  });
-  for (const std::vector<int> &some : found)
-    particles.insert(particles.end(), some.begin(), some.end());
-  most_contacts.assign(particles.size(), static_cast<std::uint8_t>(wall.most_contacts()));
 }
 
 /* By several threads, each for a range of the particles. */
@@ -110,13 +109,10 @@ void BodyCandidates::list_near(const Search &search, int threads)
   std::vector<Found> found(threads);
   in_ranges(search.view.owned(), threads, [&](int t, int begin, int end) {
     Found of_thread;
-    for (int i = begin; i < end; i++) {
-      if (!search.wants(i)) continue;
-      const Vector3<double> x = search.place(i);
-      const double reach = search.reach(i), distance = search.distance(x);
-      of_thread.farthest = std::max(of_thread.farthest, search.farthest(distance, reach));
-      if (search.shape.distance_bound(x) < reach) of_thread.near.push_back(i);
-    }
+    search.each(begin, end, [&](int i, const Vector3<double> &x, double reach, bool may_touch) {
+      of_thread.farthest = std::max(of_thread.farthest, search.farthest(search.distance(x), reach));
+      if (may_touch || search.keeps(i)) of_thread.near.push_back(i);
+    });
     found[t] = std::move(of_thread);
   });
   for (const Found &of_thread : found) {
@@ -128,20 +124,20 @@ void BodyCandidates::list_near(const Search &search, int threads)
 void BodyCandidates::list_with_parts(const Search &search)
 {
   const std::size_t most = search.shape.most_contacts();
-  for (int i = 0; i < search.view.owned(); i++) {
-    if (!search.wants(i)) continue;
-    const Vector3<double> x = search.place(i);
-    const double reach = search.reach(i), distance = search.distance(x);
-    listed_reach = std::max(listed_reach, search.farthest(distance, reach));
-    if (search.frame.moves && distance >= search.extent + reach) continue;
-    if (!search.shape.is_near(x, reach, parts)) continue;
-    const std::size_t num_parts = parts.size() - parts_begin.back();
-    listed.push_back({x, num_parts ? parts[parts_begin.back()].distance : 0.0});
-    most_contacts.push_back(
-        static_cast<std::uint8_t>(num_parts ? std::min(num_parts, most) : most));
-    parts_begin.push_back(parts.size());
-    particles.push_back(i);
-  }
+  search.each(0, search.view.owned(),
+              [&](int i, const Vector3<double> &x, double reach, bool may_touch) {
+                const double distance = search.distance(x);
+                listed_reach = std::max(listed_reach, search.farthest(distance, reach));
+                if (search.frame.moves && distance >= search.extent + reach) may_touch = false;
+                if (!(may_touch && search.shape.is_near(x, reach, parts)) && !search.keeps(i))
+                  return;
+                const std::size_t num_parts = parts.size() - parts_begin.back();
+                listed.push_back({x, num_parts ? parts[parts_begin.back()].distance : 0.0});
+                most_contacts.push_back(
+                    static_cast<std::uint8_t>(num_parts ? std::min(num_parts, most) : most));
+                parts_begin.push_back(parts.size());
+                particles.push_back(i);
+              });
 }
 
 bool BodyCandidates::sort_by_slot(const int *slot_of_atom)

@@ -7,13 +7,11 @@
 #define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 
 #include "base/linear_algebra.h"
-#include "body/contact/wall_surface.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
 #include "particles/particle_state.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace Talus {
@@ -22,14 +20,11 @@ class BodyCandidates {
  public:
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far; contacts that have begun last until there is a gap of
-  /// `beyond`. `threads` are used for shapes that are thread_safe() and touch at one point at most.
+  /// `beyond`. And those of `to_keep`, ascending local indices. `threads` are used for shapes that are
+  /// thread_safe() and touch at one point at most.
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
-            const int *mask, int group, double skin, double beyond, int threads);
-
-  /// The same of a wall: the particles that may touch it, and those for which keep(i) holds; `way`: of
-  /// both together, beyond zero overlap.
-  void list(const WallSurface &wall, const ParticleState &view, const int *mask, int group,
-            double way, const std::function<bool(int)> &keep, int threads);
+            const int *mask, int group, double skin, double beyond, const std::vector<int> &to_keep,
+            int threads);
 
   /// The body has moved so far that particles must be listed again.
   bool are_stale(const BodyFrame &frame, double skin) const;
@@ -48,7 +43,7 @@ class BodyCandidates {
   /// Local indices.
   const std::vector<int> &atoms() const { return particles; }
   int atom(std::size_t c) const { return particles[c]; }
-  /// How many contacts each may have at the same time; only of shapes with several, and of walls.
+  /// How many contacts each may have at the same time; only of shapes with several.
   const std::vector<std::uint8_t> &room() const { return most_contacts; }
 
   /// Where candidate c was when it was listed, in the frame of the body; of shapes with several
@@ -64,6 +59,7 @@ class BodyCandidates {
   NearParts parts_near(const BodyFrame &frame, std::size_t c, const Vector3<double> &x,
                        double radius, bool &may_touch) const;
 
+  bool have_parts() const { return !parts.empty(); }
   /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
   void prefetch_list(std::size_t c, double radius) const;
   void prefetch_parts(std::size_t c, double radius, const LargeBodyShape &shape) const;

@@ -52,20 +52,10 @@ void BodyContacts::find_candidates(const LargeBodyShape &shape, const BodyFrame 
 {
   index.clear();
   forget_deepest();
+  std::vector<int> to_keep;
+  if (with_history && history.by_parts()) to_keep = history.particles_in_contact(view.owned());
   candidates.list(shape, frame, view, mask, group, skin,
-                  largest_pulloff_distance(view, mask, group), threads);
-  follow_candidates();
-}
-
-void BodyContacts::find_candidates(const WallSurface &wall, const ParticleState &view,
-                                   const int *mask, int group, double way, int threads)
-{
-  index.clear();
-  std::vector<int> in_contact;
-  if (with_history) in_contact = history.particles_in_contact(view.owned());
-  candidates.list(
-      wall, view, mask, group, way + largest_pulloff_distance(view, mask, group),
-      [&](int i) { return std::binary_search(in_contact.begin(), in_contact.end(), i); }, threads);
+                  largest_pulloff_distance(view, mask, group), to_keep, threads);
   follow_candidates();
 }
 
@@ -78,6 +68,16 @@ void BodyContacts::follow_candidates()
   else
     history.begin_step();
 }
+
+Eigen::AlignedBox3d BodyContacts::bounds_of_search(const BodyFrame &frame,
+                                                   const ParticleState &view, const int *mask,
+                                                   int group, double skin) const
+{
+  return BodyCandidates::bounds_of_search(frame, view, mask, group, skin,
+                                          largest_pulloff_distance(view, mask, group));
+}
+
+/* How far contacts of these particles last beyond zero overlap at most (length). */
 
 double BodyContacts::largest_pulloff_distance(const ParticleState &view, const int *mask,
                                               int group) const
@@ -108,25 +108,8 @@ void BodyContacts::index_candidates(const ParticleState &view)
 BodyTask BodyContacts::task_of(const LargeBodyShape &shape, const BodyFrame &frame,
                                const ParticleState &view, const BodyStep &step)
 {
-  return {shape,
-          *laws,
-          frame,
-          view,
-          candidates,
-          index.data(),
-          history,
-          step.dt,
-          step.lag,
-          step.advance,
-          step.exact != nullptr,
-          step.touched != nullptr,
-          step.corners != nullptr,
-          step.for_outputs != nullptr,
-          step.account,
-          step.virial,
-          with_history,
-          history_records,
-          step.wall};
+  return {shape,        *laws,   frame, view,         candidates,
+          index.data(), history, step,  with_history, history_records};
 }
 
 void BodyContacts::start_batches(int threads, bool exact)
@@ -230,7 +213,7 @@ BodyFindings BodyContacts::findings_in(const LargeBodyShape &shape, const BodyFr
                                        std::size_t end) const
 {
   BodyFindings most;
-  SurfaceContact found[LargeBodyShape::max_contacts];
+  SurfaceContact found[LargeBodyShape::max_parts];
   const bool several = shape.most_contacts() > 1;
   for (std::size_t c = begin; c < end; c++) {
     const int i = candidates.atom(c);

@@ -12,27 +12,13 @@
 #include "body/contact/body_batch.h"
 #include "body/contact/body_candidates.h"
 #include "body/contact/body_history.h"
+#include "body/contact/body_step.h"
 
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace Talus {
-
-/// How a step is computed.
-struct BodyStep {
-  double dt = 0.0;
-  double lag = 0.0;       ///< see ContactStep
-  bool advance = true;    ///< false while a run is set up: histories are then only read
-  int threads = 1;
-  WorkAccount *account = nullptr;                    ///< receives the work, if it advances
-  ExactLoad *exact = nullptr;                        ///< receives the load without rounding
-  std::vector<TouchedPart> *touched = nullptr;       ///< receives one entry for each contact
-  std::vector<TouchedCorners> *corners = nullptr;    ///< the same, of a mesh whose vertices move
-  ComputedContacts *for_outputs = nullptr;    ///< receives the contacts, if they may be asked for
-  double *virial = nullptr;          ///< added to, six for each owned particle: xx yy zz xy xz yz
-  const WallStep *wall = nullptr;    ///< only of walls of LAMMPS, whose shape is WallStep::surface
-};
 
 /// Largest values of what a run warns about, over the particles of this rank that are near the
 /// body; of equal values that of the particle listed first; zero without any.
@@ -64,19 +50,19 @@ class BodyContacts {
   const LawTable &law_table() const { return *laws; }
 
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
-  /// than `skin`, and the body not too far. Others have no contact: their history is forgotten.
+  /// than `skin`, and the body not too far; of a surface that moves by itself both together. Others
+  /// have no contact: their history is forgotten, unless contacts are known by their parts, which end only
+  /// where the shape says so.
   void find_candidates(const LargeBodyShape &shape, const BodyFrame &frame,
                        const ParticleState &view, const int *mask, int group, double skin,
                        int threads = 1);
 
-  /// The same of a wall, which is stale when the owner says so: `way` is that of a particle and the
-  /// wall together.
-  void find_candidates(const WallSurface &wall, const ParticleState &view, const int *mask,
-                       int group, double way, int threads);
   std::size_t num_candidates() const { return candidates.size(); }
 
-  /// How far contacts of these particles last beyond zero overlap at most (length).
-  double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
+  /// The box, in the frame of the body, around all that the shape may be asked for from find_candidates()
+  /// with these arguments to the next; empty without particles.
+  Eigen::AlignedBox3d bounds_of_search(const BodyFrame &frame, const ParticleState &view,
+                                       const int *mask, int group, double skin) const;
 
   /// The body has moved so far that particles must be listed again.
   bool is_stale(const BodyFrame &frame, double skin) const
@@ -126,6 +112,7 @@ class BodyContacts {
   std::size_t first_of(int thread, int threads) const;
   BodyFindings findings_in(const LargeBodyShape &shape, const BodyFrame &frame,
                            const ParticleState &view, std::size_t begin, std::size_t end) const;
+  double largest_pulloff_distance(const ParticleState &view, const int *mask, int group) const;
 
   std::shared_ptr<const LawTable> laws = std::make_shared<const LawTable>();
   bool with_history = false;

@@ -2,8 +2,6 @@
 
 #include "body/contact/body_history.h"
 
-#include "body/contact/wall_surface.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -259,7 +257,7 @@ void BodyHistory::match_parts(std::size_t candidate, const SurfaceContact *found
 {
   const std::size_t slot = first[candidate];
   const int known = drop_ended_parts(slot, counts[candidate], found, count);
-  int all = known, contact_at[WallSurface::most_of_wall];
+  int all = known, contact_at[LargeBodyShape::max_parts];
   unsigned taken = 0;    // places
   for (int n = 0; n < count; n++) {
     int k = 0;

@@ -42,7 +42,7 @@ class BodyHistory : public ContactMemory::Holder {
     with_several = several;
     with_normals = several || normals;
   }
-  /// Of a wall: contacts are known by the parts that they touch.
+  /// Contacts are known by the parts that they touch, as those of walls of LAMMPS.
   void keep_parts(bool several)
   {
     with_several = several;
@@ -84,6 +84,7 @@ class BodyHistory : public ContactMemory::Holder {
   }
 
   bool several() const { return with_several; }
+  bool by_parts() const { return with_parts; }
   int num_records() const { return rows.records(); }
   /// First slot of a candidate.
   std::uint32_t first_slot(std::size_t candidate) const
@@ -111,8 +112,21 @@ class BodyHistory : public ContactMemory::Holder {
     return block < touching.size() ? touching[block].load(std::memory_order_relaxed) : 0;
   }
 
-  /// With several(): the contacts that a candidate has now; slot k of it is that of found[k]. A
-  /// contact continues that with the nearest normal, in the frame of the body: from one step to the
+  /// With several(): the contacts that a candidate has now. Returns how many of `found` there are then,
+  /// and fills in the slot of each; by_parts() says which of the following two does it.
+  class Ends;
+  int continue_found(std::size_t candidate, SurfaceContact *found, int count, std::uint32_t *slots,
+                     Vector3<double> *before, const Ends *ends)
+  {
+    if (with_parts) {
+      continue_parts(candidate, found, count, slots);
+      return count;
+    }
+    const int left = continue_contacts(candidate, found, count, before, ends);
+    for (int k = 0; k < left; k++) slots[k] = first[candidate] + k;
+    return left;
+  }
+  /// By their normals: slot k of the candidate is that of found[k]. A contact continues that with the nearest normal, in the frame of the body: from one step to the
   /// next it turns by far less than the angle between two contacts. Contacts without overlap that
   /// continue none are taken out of `found`; returns how many are left, and leaves room for
   /// LargeBodyShape::max_contacts. `before`: nullptr, or receives the normals that they had, zero of
@@ -130,7 +144,7 @@ class BodyHistory : public ContactMemory::Holder {
   };
   int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
                         Vector3<double> *before = nullptr, const Ends *ends = nullptr);
-  /// The same of a wall: a contact continues that with the same part. Fills in the slot of each.
+  /// By their parts: a contact continues that with the same one. Fills in the slot of each.
   void continue_parts(std::size_t candidate, const SurfaceContact *found, int count,
                       std::uint32_t *slots)
   {

@@ -40,6 +40,9 @@ struct SurfaceContact {
   Vector3<double> normal;    ///< unit vector from the body to the center of the sphere
   double overlap;            ///< radius minus distance of the center from the surface, > 0
   int part = 0;              ///< the part that is touched; of a mesh, a triangle
+  // only of shapes that describe their surface
+  double curvature = 0.0;    ///< of the surface there: 1/radius; 0: flat, < 0: hollow
+  Vector3<double> velocity{0.0, 0.0, 0.0};    ///< of the surface there, in the frame of the body
 };
 
 /// Eight spheres, or less, side by side: `center` by component.
@@ -51,6 +54,22 @@ struct EightSpheres {
 /// Where they touch a body; see SurfaceContact.
 struct EightContacts {
   alignas(64) double normal[3][EightSpheres::width], overlap[EightSpheres::width];
+  // only of shapes that describe their surface
+  alignas(64) double velocity[3][EightSpheres::width], curvature[EightSpheres::width];
+  int part[EightSpheres::width];
+
+  void set(int k, const SurfaceContact &one)
+  {
+    const Vector3<double> &n = one.normal, &v = one.velocity;
+    const double along[3] = {n.x, n.y, n.z}, way[3] = {v.x, v.y, v.z};
+    for (int d = 0; d < 3; d++) {
+      normal[d][k] = along[d];
+      velocity[d][k] = way[d];
+    }
+    overlap[k] = one.overlap;
+    curvature[k] = one.curvature;
+    part[k] = one.part;
+  }
 };
 
 /// A part of a body near some particle, and its distance at the time when it was listed.
@@ -77,8 +96,9 @@ struct Triangle {
 
 class LargeBodyShape {
  public:
-  /// No shape may have more contacts with a sphere than this.
-  static constexpr int max_contacts = 8;
+  /// No shape may have more contacts with a sphere than this; but for those whose contacts are known
+  /// by their parts, see BodyHistory.
+  static constexpr int max_contacts = 8, max_parts = 32;
 
   virtual ~LargeBodyShape() = default;
 
@@ -103,16 +123,37 @@ class LargeBodyShape {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// No sphere touches the body at more points than this: 1 ... max_contacts.
+  /// No sphere touches the body at more points than this: 1 ... max_contacts, or max_parts.
   virtual int most_contacts() const { return 1; }
 
   /// Fills found[0 ...] with at most most_contacts() contacts, in an order that depends on nothing
-  /// but the sphere, and returns their number.
+  /// but the sphere, and returns their number; or a number < 0: the sphere is where its contacts neither
+  /// act nor end, behind a surface of LAMMPS.
   virtual int find_contacts(const Vector3<double> &center, double radius, NearParts parts,
                             SurfaceContact *found) const
   {
     (void) parts;
     return touches(center, radius, *found) ? 1 : 0;
+  }
+
+  /// Contacts tell curvature and velocity as well, and the part also where there is one contact at
+  /// most. Of all others the surface is flat on the scale of particles, at rest in the frame of the
+  /// body, and without parts unless there are several contacts. Each contact tells all of it, and laws of
+  /// second order take the velocity for that of the whole step.
+  virtual bool describes_surface() const { return false; }
+
+  /// Of eight spheres the bits of those that the surface may be within; all that it is have theirs. To
+  /// implement it pays for a surface that moves by itself, or one that costs much to ask: it is called for
+  /// lists, with radii as wide as they must be, and of shapes with several contacts in every step,
+  /// before find_contacts().
+  virtual unsigned may_touch_eight(const EightSpheres &spheres) const
+  {
+    unsigned near = 0;
+    const auto &x = spheres.center;
+    if (most_contacts() > 1) return (1U << EightSpheres::width) - 1U;    // is_near() is to tell
+    for (int k = 0; k < EightSpheres::width; k++)
+      if (distance_bound({x[0][k], x[1][k], x[2][k]}) < spheres.radius[k]) near |= 1U << k;
+    return near;
   }
 
   /// Is the surface nearer than `reach`? Appends the parts which are, nearest first, if the shape
@@ -192,10 +233,7 @@ class LargeBodyShape {
       const auto &x = spheres.center;
       if (!touches({x[0][k], x[1][k], x[2][k]}, spheres.radius[k], one)) continue;
       touching |= 1U << k;
-      contacts.normal[0][k] = one.normal.x;
-      contacts.normal[1][k] = one.normal.y;
-      contacts.normal[2][k] = one.normal.z;
-      contacts.overlap[k] = one.overlap;
+      contacts.set(k, one);
     }
     return touching;
   }

@@ -321,7 +321,7 @@ LargeBodyShapes::Shape LargeBodyShapes::region()
   if (!refusal.empty()) words.fail(1, refusal);
   region->init();
   region->prematch();
-  return std::make_unique<RegionShape>(region, id.c_str(), *domain);
+  return std::make_unique<RegionShape>(RegionShape::MovedBy::BODY, *region, *domain);
 }
 
 LargeBodyShapes::Shape LargeBodyShapes::custom()

@@ -18,7 +18,7 @@ bigint FixWallGranRegionTalus::stock_size(const double *data) const
 
 std::string FixWallGranRegionTalus::what_only_stock_does() const
 {
-  return region->tmax > WallSurface::most_of_wall ? "its region has too many faces" : "";
+  return region->tmax > LargeBodyShape::max_parts ? "its region has too many faces" : "";
 }
 
 std::string FixWallGranRegionTalus::what_reads_arrays()
@@ -30,12 +30,15 @@ std::string FixWallGranRegionTalus::what_reads_arrays()
              : "its region may move with particles: v_" + variable + " reads more than time";
 }
 
-void FixWallGranRegionTalus::are_listed(const ParticleState &particles)
+const LargeBodyShape &FixWallGranRegionTalus::begin_run()
 {
-  if (!wall.is_dynamic()) return;
-  wall.are_listed(BodyCandidates::bounds_of_search(
-      BodyFrame{}, particles, atom->mask, groupbit, system->lists().skin(),
-      contacts.largest_pulloff_distance(particles, atom->mask, groupbit)));
+  surface = std::make_unique<RegionShape>(RegionShape::MovedBy::ITSELF, *region, *domain);
+  return *surface;
+}
+
+void FixWallGranRegionTalus::are_listed()
+{
+  if (surface->is_dynamic()) surface->are_listed(wall.bounds_of_search());
 }
 
 void FixWallGranRegionTalus::write_restart(FILE *file)

@@ -7,7 +7,7 @@
 #define LMP_FIX_WALL_GRAN_REGION_TALUS_H
 
 #include "fix/wall/fix_wall_gran_accelerated.h"
-#include "fix/wall/region_wall.h"
+#include "system/regions/region_shape.h"
 
 #include "fix_wall_gran_region.h"
 
@@ -23,12 +23,11 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
 
  protected:
   bigint stock_size(const double *data) const override;
-  void begin_run() override { wall = RegionWall(*region, *domain, radii_vary()); }
-  const Talus::WallSurface &surface() const override { return wall; }
-  void place() override { wall.place(); }
-  bool is_bounded() const override { return wall.is_bounded(); }
-  void are_listed(const Talus::ParticleState &particles) override;
-  double displacement() const override { return wall.displacement(); }
+  const Talus::LargeBodyShape &begin_run() override;
+  void place() override { surface->place(); }
+  bool is_bounded() const override { return surface->has_distance(); }
+  void are_listed() override;
+  double displacement() const override { return surface->displacement(); }
   std::string what_only_stock_does() const override;
   std::string what_reads_arrays() override;
 
@@ -39,7 +38,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   void add(int i, int part, const Talus::HistoryValues &values) override;
 
  private:
-  RegionWall wall;
+  std::unique_ptr<Talus::RegionShape> surface;    // of this run
 };
 
 }    // namespace LAMMPS_NS

@@ -23,7 +23,7 @@ std::string FixWallGranTalus::what_only_stock_does() const
   return "";
 }
 
-const WallSurface &FixWallGranTalus::surface() const
+const LargeBodyShape &FixWallGranTalus::begin_run()
 {
   if (is_cylinder()) return cylinder;
   return planes;

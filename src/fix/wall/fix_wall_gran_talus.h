@@ -30,14 +30,9 @@ class FixWallGranTalus : public Talus::AcceleratedWall<FixWallGran> {
   {
     return 1 + size_history;
   }
-  void begin_run() override {}
-  const Talus::WallSurface &surface() const override;
+  const Talus::LargeBodyShape &begin_run() override;
   void place() override;
-  bool is_bounded() const override
-  {
-    return !radii_vary();
-  }
-  void are_listed(const Talus::ParticleState & /*particles*/) override
+  void are_listed() override
   {
     listed_at = gone();
   }

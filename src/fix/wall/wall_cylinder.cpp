@@ -8,6 +8,8 @@
 
 namespace Talus {
 
+/* LAMMPS takes the diameter for the radius. */
+
 bool WallCylinder::touches(const Vector3<double> &center, double sphere,
                            SurfaceContact &contact) const
 {
@@ -16,22 +18,24 @@ bool WallCylinder::touches(const Vector3<double> &center, double sphere,
   const double side = inwards < 0.0 ? 1.0 : -1.0;
   contact.normal = {side / r * center.x, side / r * center.y, 0.0};
   contact.overlap = sphere - std::abs(inwards);
+  contact.part = -1;
+  contact.curvature = (r < radius ? -0.5 : 0.5) / radius;
+  contact.velocity = velocity;
   return true;
 }
 
-unsigned WallCylinder::may_touch(const EightSpheres &spheres, bool /*listed*/) const
+/* Rounding must not hide a particle. */
+
+unsigned WallCylinder::may_touch_eight(const EightSpheres &spheres) const
 {
   const Vec8 x = load8(spheres.center[0]), y = load8(spheres.center[1]);
   return less_bits(magnitude(splat<Vec8>(radius) - square_root(x * x + y * y)),
-                   load8(spheres.radius));
+                   splat<Vec8>(1.000001) * load8(spheres.radius));
 }
 
-/* LAMMPS takes the diameter for the radius. */
-
-WallSurface::Point WallCylinder::point(const Vector3<double> &center) const
+double WallCylinder::distance_bound(const Vector3<double> &center) const
 {
-  const bool inside = std::sqrt(center.x * center.x + center.y * center.y) < radius;
-  return {velocity, (inside ? -0.5 : 0.5) / radius, -1};
+  return std::abs(radius - std::sqrt(center.x * center.x + center.y * center.y));
 }
 
 }    // namespace Talus

@@ -4,6 +4,8 @@
 
 #include "base/lanes.h"
 
+#include <cmath>
+
 namespace Talus {
 
 void WallPlanes::place(int across, double lower, double upper, const Vector3<double> &v)
@@ -11,7 +13,7 @@ void WallPlanes::place(int across, double lower, double upper, const Vector3<dou
   axis = across;
   low = lower;
   high = upper;
-  all.velocity = v;
+  velocity = v;
 }
 
 double WallPlanes::nearer(double x) const
@@ -27,6 +29,8 @@ bool WallPlanes::touches(const Vector3<double> &center, double radius,
   if (!(up * distance < radius)) return false;
   contact.normal = {axis == 0 ? up : 0.0, axis == 1 ? up : 0.0, axis == 2 ? up : 0.0};
   contact.overlap = radius - up * distance;
+  contact.part = along(center) - low < high - along(center) ? 0 : 1;
+  contact.velocity = velocity;
   return true;
 }
 
@@ -39,23 +43,32 @@ unsigned WallPlanes::touches_eight(const EightSpheres &spheres, int count,
              one = splat<Vec8>(1.0);
   const Vec8 above = x - splat<Vec8>(low), below = splat<Vec8>(high) - x;
   const Vec8 distance = select(above < below, above, -below);
+  const unsigned touching = less_bits(magnitude(distance), radius) & ((1U << count) - 1U);
+  if (!touching) return 0;
   const Vec8 up = select(distance < zero, -one, one);
   for (int d = 0; d < 3; d++) store(contacts.normal[d], d == axis ? up : zero);
   store(contacts.overlap, radius - up * distance);
-  return less_bits(magnitude(distance), radius) & ((1U << count) - 1U);
+  store(contacts.velocity[0], splat<Vec8>(velocity.x));
+  store(contacts.velocity[1], splat<Vec8>(velocity.y));
+  store(contacts.velocity[2], splat<Vec8>(velocity.z));
+  store(contacts.curvature, zero);
+  const unsigned lower = less_bits(above, below);
+  for (int k = 0; k < lanes; k++) contacts.part[k] = lower >> k & 1U ? 0 : 1;
+  return touching;
 }
 
-unsigned WallPlanes::may_touch(const EightSpheres &spheres, bool /*listed*/) const
+/* Rounding must not hide a particle. */
+
+unsigned WallPlanes::may_touch_eight(const EightSpheres &spheres) const
 {
-  const Vec8 x = load8(spheres.center[axis]), radius = load8(spheres.radius);
-  return less_bits(magnitude(x - splat<Vec8>(low)), radius) |
-         less_bits(magnitude(splat<Vec8>(high) - x), radius);
+  const Vec8 x = load8(spheres.center[axis]), reach = splat<Vec8>(1.000001) * load8(spheres.radius);
+  return less_bits(magnitude(x - splat<Vec8>(low)), reach) |
+         less_bits(magnitude(splat<Vec8>(high) - x), reach);
 }
 
-WallSurface::Point WallPlanes::point(const Vector3<double> &center) const
+double WallPlanes::distance_bound(const Vector3<double> &center) const
 {
-  const double x = along(center);
-  return {all.velocity, 0.0, x - low < high - x ? 0 : 1};
+  return std::abs(nearer(along(center)));
 }
 
 }    // namespace Talus

@@ -3,12 +3,12 @@
 #ifndef TALUS_FIX_WALL_WALL_PLANES_H
 #define TALUS_FIX_WALL_WALL_PLANES_H
 
-#include "body/contact/wall_surface.h"
+#include "body/shape/large_body_shape.h"
 
 namespace Talus {
 
 /// The planes of a fix wall/gran: one or two, across an axis. A sphere touches the nearer one.
-class WallPlanes : public WallSurface {
+class WallPlanes : public LargeBodyShape {
  public:
   /// In each step: 0 ... 2; where the planes are, and their velocity.
   void place(int across, double lower, double upper, const Vector3<double> &v);
@@ -19,9 +19,10 @@ class WallPlanes : public WallSurface {
                SurfaceContact &contact) const override;
   unsigned touches_eight(const EightSpheres &spheres, int count,
                          EightContacts &contacts) const override;
-  unsigned may_touch(const EightSpheres &spheres, bool listed) const override;
-  const Point *everywhere() const override { return &all; }
-  Point point(const Vector3<double> &center) const override;
+  unsigned may_touch_eight(const EightSpheres &spheres) const override;
+  double distance_bound(const Vector3<double> &center) const override;
+  bool describes_surface() const override { return true; }
+  Vector3<double> reference_point() const override { return {0.0, 0.0, 0.0}; }
 
  private:
   double along(const Vector3<double> &x) const { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
@@ -30,7 +31,7 @@ class WallPlanes : public WallSurface {
 
   int axis = 0;
   double low = 0.0, high = 0.0;
-  Point all;
+  Vector3<double> velocity{0.0, 0.0, 0.0};
 };
 
 }    // namespace Talus

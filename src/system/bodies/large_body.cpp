@@ -113,7 +113,7 @@ void LargeBody::follow_region()
                fix->id, shape_of_region->region_id());
   const std::string refusal = RegionShape::refusal(*region, body_motion.has_own());
   if (!refusal.empty()) error->all(FLERR, "Fix large/body {}: {}", fix->id, refusal);
-  shape_of_region->replace(region, *domain);
+  shape_of_region->take(*region, *domain);
   if (!body_motion.has_own()) body_motion.follow(*region, shape_of_region->reference_point());
 }
 

@@ -195,21 +195,30 @@ Vector3<double> PeriodicSpan::wrapped(Vector3<double> x) const
 
 /* ---------------------------------------------------------------------- */
 
-/* Of all equal-style variables the first whose value depends on more than the time, or "". */
+namespace {
 
-/* ---------------------------------------------------------------------- */
+/// While it exists, a simple region answers as it was before it moved.
+class RegionAtRest {
+ public:
+  explicit RegionAtRest(Region &moving) :
+      region(moving), dynamic(moving.dynamic), turns(moving.rotateflag)
+  {
+    region.dynamic = region.rotateflag = 0;
+  }
+  ~RegionAtRest()
+  {
+    region.dynamic = dynamic;
+    region.rotateflag = turns;
+  }
+  RegionAtRest(const RegionAtRest &) = delete;
+  RegionAtRest &operator=(const RegionAtRest &) = delete;
 
-RegionAtRest::RegionAtRest(Region &moving) :
-    region(moving), dynamic(moving.dynamic), turns(moving.rotateflag)
-{
-  region.dynamic = region.rotateflag = 0;
-}
+ private:
+  Region &region;
+  const int dynamic, turns;
+};
 
-RegionAtRest::~RegionAtRest()
-{
-  region.dynamic = dynamic;
-  region.rotateflag = turns;
-}
+}    // namespace
 
 bool RegionInFrame::match(const double *x) const
 {

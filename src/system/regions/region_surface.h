@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What a wall needs to know of a region of LAMMPS beyond what its contacts are: which particles
-// cannot touch its surface for a while, and how far that surface moves.
+// What RegionShape needs to know of a region of LAMMPS beyond what its contacts are: which particles
+// cannot touch its surface for a while, how far that surface moves, and where its periodic images are.
 //
 // All lengths and positions are those of the simulation box.
 
@@ -112,16 +112,17 @@ class PeriodicSpan {
   /// x if it is within the box, else its image there. Never on a face, where a region that ends has
   /// another side.
   Vector3<double> image_of(const Vector3<double> &x) const { return is_empty() ? x : wrapped(x); }
-  /// Calls visit(y) for x and for its images one period away.
-  template <class Visit> void each_image(const Vector3<double> &x, Visit visit) const
+  /// Calls visit(y) for x, one point or eight, and for its images one period away.
+  template <class Real, class Visit> void each_image(const Vector3<Real> &x, Visit visit) const
   {
+    if (is_empty()) return visit(x);
     for (int k = 0; k < 27; k++) {
-      const double shift[3] = {(k % 3 - 1) * period[0], (k / 3 % 3 - 1) * period[1],
-                               (k / 9 - 1) * period[2]};
+      const Vector3<double> shift{(k % 3 - 1) * period[0], (k / 3 % 3 - 1) * period[1],
+                                  (k / 9 - 1) * period[2]};
       bool is_new = true;    // where there is no period, once
       for (int d = 0, rest = k; d < 3; d++, rest /= 3)
         is_new = is_new && (period[d] > 0.0 || rest % 3 == 1);
-      if (is_new) visit(Vector3<double>{x.x + shift[0], x.y + shift[1], x.z + shift[2]});
+      if (is_new) visit(x + in_all_lanes<Real>(shift));
     }
   }
 
@@ -131,21 +132,8 @@ class PeriodicSpan {
   double low[3] = {0.0, 0.0, 0.0}, period[3] = {0.0, 0.0, 0.0};    // 0: none
 };
 
-/// While it exists, a simple region answers as it was before it moved.
-class RegionAtRest {
- public:
-  explicit RegionAtRest(LAMMPS_NS::Region &region);
-  ~RegionAtRest();
-  RegionAtRest(const RegionAtRest &) = delete;
-  RegionAtRest &operator=(const RegionAtRest &) = delete;
-
- private:
-  LAMMPS_NS::Region &region;
-  const int dynamic, turns;
-};
-
 /// Asks a simple region in its own frame: sine and cosine of a step are computed once, where LAMMPS
-/// does it again for every question. Answers have its bits.
+/// does it again for every question. Answers have its bits. With a motion at rest: as if it did not move.
 class RegionInFrame {
  public:
   /// Both must exist as long as this does; `motion` that of the region, after prematch().

@@ -1,0 +1,93 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// What is kept of contacts: the deepest one, work, loads of parts, and all of them for outputs.
+
+#include "body/contact/body_batch.h"
+
+namespace Talus {
+
+/* Contacts of eight at a time are compared with the deepest one so far. */
+
+void BodyBatch::notice_deeper()
+{
+  const auto is_deeper = [this](int k) {
+    return load8(&batch.overlap[k]) > deepest_so_far.overlap_ratio * load8(&radius[k]);
+  };
+  bool any_deeper = false;
+  for (int k = 0; k < end && !any_deeper; k += lanes) any_deeper = any(is_deeper(k));
+  if (!any_deeper) return;
+  for (int lane = 0; lane < filled; lane++) {
+    const double ratio = batch.overlap[lane] / radius[lane];
+    if (!(ratio > deepest_so_far.overlap_ratio)) continue;
+    deepest_so_far = {ratio, task->candidates.atom(candidate_of_lane[lane]), part_of(lane)};
+  }
+}
+
+void BodyBatch::account()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    const EnergyByCause contact_work = work_of_lane(batch, lane);
+    work += contact_work;
+    add_work(*task->step.account, task->candidates.atom(candidate_of_lane[lane]), contact_work,
+             1.0);
+  }
+}
+
+/* For outputs; -1 without parts. */
+
+int BodyBatch::part_of(int lane) const
+{
+  if (!described && task->shape.most_contacts() == 1) return -1;
+  const MovingVertices *const vertices = task->frame.vertices;
+  return vertices ? vertices->own_triangle(part_of_lane[lane]) : part_of_lane[lane];
+}
+
+/* What laws are about to read: some of them change it. */
+
+void BodyBatch::begin_records()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    ComputedContact &one = contacts_for_outputs.emplace_back();
+    one.state = state_of_lane(batch, lane);
+    one.row = batch.coefficients[lane];
+  }
+}
+
+/* Forces and torques are in space axes by now. */
+
+void BodyBatch::complete_records()
+{
+  const std::size_t before = contacts_for_outputs.size() - filled;
+  for (int lane = 0; lane < filled; lane++) {
+    ComputedContact &one = contacts_for_outputs[before + lane];
+    ContactReport &to = one.report;
+    to.i = task->candidates.atom(candidate_of_lane[lane]);
+    to.part = part_of(lane);
+    to.center[0] = lane_of(place, lane);
+    to.normal = task->frame.to_space(one.state.normal);
+    to.overlap = one.state.overlap;
+    to.force = lane_of(batch.force, lane);
+    if (law.has_friction()) to.torque_per_radius = lane_of(batch.torque_per_radius, lane);
+    if (law.resists()) to.twisting_torque = lane_of(batch.twisting_torque, lane);
+    if (law.conducts_heat()) to.heat_flow = batch.heat_flow[lane];
+    for (int n = 0; task->with_history && n < 4 * task->history_records; n++)
+      to.history[n] = batch.history[n][lane];
+    to.set_arms_of_spheres(radius[lane], 0.0);
+  }
+}
+
+void BodyBatch::record_parts()
+{
+  for (int lane = 0; lane < filled; lane++) {
+    const Vector3<double> n = lane_of(batch.normal, lane), f = lane_of(batch.force, lane);
+    const Vector3<double> v = lane_of(batch.velocity, lane);
+    const double pressed = dot(f, n);
+    const Vector3<double> slip =
+        v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
+    const Vector3<double> shear =
+        law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
+    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip)});
+  }
+}
+
+}    // namespace Talus
