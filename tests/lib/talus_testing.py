@@ -1,12 +1,9 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Helpers for tests that run LAMMPS with the Talus plugin.
 
-A test script starts with
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-    from talus_testing import *
-derives its cases from SceneCase and ends with unittest.main().  ctest provides TALUS_LMP,
-TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMMPS_PLUGIN_PATH.  Without a host or a plugin
-a script fails at import: it never skips.
+A test script derives its cases from SceneCase and ends with unittest.main().  ctest provides this folder
+in PYTHONPATH, TALUS_LMP, TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMMPS_PLUGIN_PATH.  Without
+a host or a plugin a script fails at import: it never skips.
 """
 
 import collections

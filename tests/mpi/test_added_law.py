@@ -7,10 +7,8 @@ import math
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 PLUGIN = os.path.join(os.environ["TALUS_BINARY_DIR"], "added")

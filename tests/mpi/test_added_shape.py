@@ -7,10 +7,8 @@ inertia, contacts with itself, spheres, convex particles, planes, boxes and mesh
 import math
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data

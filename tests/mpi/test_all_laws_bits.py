@@ -6,12 +6,9 @@
 laws, one after the other.  Compared are positions, velocities, spins, forces and torques of every sphere; -0 counts
 as 0."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
 
 HOOKE, HERTZ, FLORES = "hooke 1e4 20.0", "hertz 3e4 50.0", "flores 3e4 2e3"

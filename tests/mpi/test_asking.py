@@ -6,11 +6,8 @@ ranks; and the forces of the rows add up to those that acted on each particle, a
 at the positions to which the particles have been moved since."""
 
 import collections
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from body_meshes import box as box_mesh, write_stl
 from talus_testing import SceneCase, read_dump, read_local, thermo
 from tossed_clumps import write_clumps

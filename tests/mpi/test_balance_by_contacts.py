@@ -2,11 +2,8 @@
 # ctest: timeout=200
 """Balancing by contacts: a heap in a corner and a drum, divided among four ranks such that each has the same number of them."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump, thermo
 
 SCENE = """

@@ -5,10 +5,8 @@ bodies on any ranks, threads and grid, for other skins, and across a restart."""
 
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 

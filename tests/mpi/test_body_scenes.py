@@ -10,7 +10,6 @@ import shutil
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, host_environment
 from talus_testing import SceneCase, run_program
 

@@ -4,11 +4,8 @@
 with the right numbers, or ends in one error that says to leave it out, on any number of ranks; and another set-up always
 goes on."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 from talus_testing import max_difference, read_dump
 

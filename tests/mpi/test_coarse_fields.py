@@ -4,12 +4,9 @@
 """compute coarse/grid: sums over the grid against sums over particles and contacts, the weight of a bed, ranks, errors."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, marked_word, thermo, write_sphere_data
 
 SCENE = """

@@ -3,11 +3,8 @@
 """What contacts remember rests in one place, whoever has them: each once, through chains of restart files, commands that
 are defined again, and runs of the stock styles in between."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 HEAD = """

@@ -4,10 +4,8 @@
 fail or lose each other; errors of LAMMPS; bodies, fixes and scripts that come and go."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import BUILD, CoupledCase
 
 SCENE = """

@@ -3,11 +3,8 @@
 """A scene that changes between the calls of a partner, between save and restore, and several partners of one instance: each
 ends well, with the right numbers, or in a TalusError, on any number of ranks, and no rank waits for ever."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 
 SCENE = """

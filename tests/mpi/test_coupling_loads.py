@@ -4,12 +4,9 @@
 integrator and motion, the same bits on 1, 2 and 4 ranks; angular impulses about a point; work; time."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 from talus_testing import Sphere, read_dump, write_sphere_data
 from tossed_clumps import write_clumps

@@ -5,11 +5,8 @@ of vibration of that system; the table of doc/coupling.md. The load of an interv
 what was wrong about that is either left so, or made good when it is known."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 
 # M, K: of the plate and its spring; a grain of mass m on a contact of stiffness k; moved a little from rest

@@ -6,11 +6,8 @@ errors."""
 
 import json
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 from talus_testing import Sphere, write_sphere_data
 

@@ -5,10 +5,8 @@ between; what is refused; fixed point iteration on it."""
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from coupled_case import CoupledCase
 from saved_scenes import LAW, MOVE, SCENES, head, pair, tossed, walls

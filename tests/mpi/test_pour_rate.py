@@ -5,11 +5,8 @@
 
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, gathered
 from talus_testing import SceneCase, marked_word, read_dump, thermo
 

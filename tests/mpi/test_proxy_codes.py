@@ -7,10 +7,8 @@ object with `comm_proxy yes`.  27 ranks are in test_proxy_codes_long.py."""
 
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, run_program, write_sphere_data
 
 RANKS = 1, 2, 4, 8

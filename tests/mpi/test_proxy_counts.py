@@ -12,10 +12,8 @@ import itertools
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 

@@ -4,11 +4,8 @@
 
 A session under the direct exchange must print and dump what the same session prints under the stock one."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import session_scene
 from session_scene import PAIR, START
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data

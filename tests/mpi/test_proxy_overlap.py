@@ -6,12 +6,9 @@ With walls, run style verlet of LAMMPS is compared as well; in periodic boxes on
 schedule are the same (wrapping rounds), so there verlet/proxy is compared with itself.  All runs of
 the direct exchange are checked: proxies hold NaN while they are under way."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
 from tossed_grains import LAW as FRICTION, tossed_grains
 

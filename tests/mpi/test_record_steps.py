@@ -9,10 +9,8 @@ the log says so."""
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from tossed_grains import LAW, MOVERS, TossedCase
 
 RECORDS = "steps without output              in the records"

@@ -3,12 +3,9 @@
 """Order 2 keeps one trajectory: the same bits on any ranks and threads, with and without overlap, in steps through the
 arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well; also with large bodies that move."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 

@@ -6,12 +6,9 @@ coarse/grid to the same; on any number of ranks, behind a run and after a restar
 
 import collections
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, read_local, thermo, write_sphere_data
 
 WORDS = "id1 id2 body x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap fx fy fz tx ty tz fn ft eng h1 h2 h3".split()

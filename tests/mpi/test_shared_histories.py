@@ -4,12 +4,9 @@
 and what the ranks tell each other of histories is as much as there are contacts with ghosts, not ghosts or entries of ghosts."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, sent
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 

@@ -3,11 +3,8 @@
 """fix wall/gran/talus and wall/gran/region/talus: the same bits on any number of ranks and threads, with or without
 overlap, and where every step goes through the arrays of LAMMPS; -sf talus chooses them."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 

@@ -3,12 +3,9 @@
 """Sizes 1:30: the same bits on ranks, threads, across a restart, with the exchange of LAMMPS and in its multi mode; and a
 particle is a proxy only where something can touch it."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump
 
 SMALL = 0.002

@@ -3,11 +3,8 @@
 law and the balance of energy."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_balance
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data

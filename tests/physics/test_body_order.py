@@ -5,12 +5,9 @@ they move: errors against a solution with a small time step, over several sphere
 a step. The limit must be that of order 1, which has none of what makes the order two."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 import body_reference
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data

@@ -3,12 +3,9 @@
 against a body of the same shape and motion, and with the same bits on any ranks and across a restart."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
 START = """

@@ -2,12 +2,9 @@
 """On which side meshes act: grains do not fall through meshes whose triangles face any side; closed meshes act where the
 particles are; messages for what is too deep, went through, or is on a side that does not act."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 

@@ -2,11 +2,8 @@
 """Belts, open pipes and cones, and what each triangle of a mesh bears: against closed forms and sums."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 from vtk_files import Piece

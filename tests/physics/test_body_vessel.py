@@ -4,12 +4,9 @@
 it carries the weight of what it holds. test_body_vessel_long.py is the same with 20 000 particles for 20 000 steps."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_balance
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data

@@ -4,11 +4,8 @@
 collapses and comes to rest add up to a constant, to second order in the time step, with order 1 and 2, on more ranks with
 the same numbers; contacts between spheres of one clump are none."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, thermo
 from tossed_clumps import write_clumps
 

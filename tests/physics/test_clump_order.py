@@ -5,12 +5,9 @@ solution with a small time step; that one against the limit of a slow program of
 of all spheres are compared, a while after the impacts."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import clump_reference
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 from tossed_clumps import DIAMETERS, PLACES, random_rotation

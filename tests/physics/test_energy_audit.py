@@ -9,11 +9,8 @@ spheres.  Each run holds thousands of collisions that do not see each other; coe
 import collections
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, part_of, read_dump, thermo, write_sphere_data
 

@@ -4,12 +4,9 @@
 a collapsing, damped, frictional heap: kinetic + elastic + gravitational + dissipated = constant."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, relative_difference, thermo, write_sphere_data
 

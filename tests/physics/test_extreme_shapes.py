@@ -4,12 +4,9 @@
 number; the deepest overlap is printed. And the warning where cores of rounded particles overlap."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
 POUR = """

@@ -2,11 +2,8 @@
 """fix nve/sphere/symplectic: order, stability, conservation, restart, gravity, orientation."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
 MASS = math.pi / 6    # diameter 1, density 1

@@ -4,11 +4,8 @@
 of pressure over fraction, of ellipsoids 1 : 1 : .5 (M&M candies, .68 to .71: A. Donev et al., Science 303, 990, 2004) and of
 spheres (.64)."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, thermo
 
 SCENE = """

@@ -3,11 +3,8 @@
 """Bodies and region walls that end on faces of a periodic box go on behind them: nothing happens to what slides over a face."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from body_meshes import grid, write_stl
 from talus_testing import SceneCase, read_dump, thermo
 

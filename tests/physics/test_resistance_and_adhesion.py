@@ -5,11 +5,8 @@
 Cases of one test share a run, far from each other: every case has an atom type of its own."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
 

@@ -3,11 +3,8 @@
 """rolling cdt and epsd2: torques of single contacts against their formulas, and what they do to a sphere that rolls."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 BEGIN = """

@@ -4,10 +4,8 @@
 ranks and threads, and on a mesh."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 import tossed_clumps
 from talus_testing import SceneCase, read_dump, thermo

@@ -3,12 +3,9 @@
 """Energies of convex particles: kinetic with rotation + gravitational + stored + dissipated is what it was, to second
 order in the time step; what dissipates is known by hand."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 SCENE = """

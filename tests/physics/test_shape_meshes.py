@@ -4,12 +4,9 @@
 moving meshes, and what the mesh bears."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 

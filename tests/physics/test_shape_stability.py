@@ -3,11 +3,8 @@
 """compute timestep/gran of cubes: stable a little below its limit, unstable above. Mass and edge 1, linear contacts of
 stiffness 1 that stay closed and stick."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, write_sphere_data
 
 SCRIPT = """

@@ -5,10 +5,8 @@ elastic impacts keep."""
 
 import math
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
 SCENE = """

@@ -8,11 +8,8 @@ lets it fall.  Numbers to compare with: the log of the example in.sync_verlet of
 synchronized_verlet, velocity Verlet)."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 

@@ -13,11 +13,8 @@ spheres (fix rigid/small) cannot roll by itself.  A sphere that rolls against ro
 as well, unless its resistance has a threshold of speed."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 

@@ -6,12 +6,9 @@ largest eigenfrequency of translation and rotation."""
 
 import itertools
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, write_sphere_data
 
 DENSITY = 6 / math.pi

@@ -8,10 +8,8 @@ import math
 import os
 import re
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from talus_testing import SceneCase, Sphere, marked_word, read_dump, thermo, write_sphere_data
 from vtk_files import Piece

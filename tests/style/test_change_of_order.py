@@ -2,11 +2,8 @@
 # ctest: cost=25 label=smoke
 """A run goes on with the other order of the integrator: what contacts remember goes with it."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
 
 SCENE = """

@@ -5,10 +5,8 @@ bits on any number of ranks and threads, wherever a step is made, and through re
 
 import math
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, max_difference, read_dump, thermo
 from tossed_clumps import write_clumps
 

@@ -4,13 +4,10 @@
 data. Forces and torques of the rows are those of the particles; energies by particle are those of penalty/stats."""
 
 import collections
-import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, relative_difference, thermo,
                            write_sphere_data)

@@ -2,12 +2,9 @@
 """Warnings about deep overlaps and large moves: where they are due, once per run, and not elsewhere."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, write_sphere_data
 
 OVERLAP = r"WARNING: Pair style gran/penalty: particles (\d+) and (\d+) overlap by (\S+) of the smaller radius at step"

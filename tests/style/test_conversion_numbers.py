@@ -4,12 +4,9 @@ go, time steps, streams. What is from LAMMPS is compared with its own styles in 
 
 import dataclasses
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from doc_tables import commands, page, rows
 from liggghts_reference import Law, Sphere, collide, heat_flow

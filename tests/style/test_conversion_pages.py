@@ -6,10 +6,8 @@ motion, but for the half step by which integrators differ."""
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from doc_tables import blocks, commands, page, rows
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data

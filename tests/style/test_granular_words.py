@@ -4,12 +4,9 @@
 threads and after a restart, also with a large body; the balance of energy."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
 
 # pair granular, gran/penalty if it has other words

@@ -4,10 +4,8 @@
 import os
 import random
 import struct
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import restart_file
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 

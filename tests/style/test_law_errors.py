@@ -5,13 +5,10 @@ that go with them: its text and the word it points at, on 1 and 2 ranks."""
 
 import concurrent.futures
 import math
-import os
 import re
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
 
 BOX = """

@@ -4,13 +4,9 @@
 past and turns, of which all numbers are known."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import test_conversion_pages as pages
 from talus_testing import SceneCase, Sphere, read_local, thermo, write_sphere_data
 

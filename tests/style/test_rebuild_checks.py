@@ -2,13 +2,10 @@
 """run_style verlet/proxy: neighbor lists are made in time whatever the distance of the checks, and a warning names what
 was in the way if not."""
 
-import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
 
 SCRIPT = """

@@ -4,13 +4,10 @@
 are): one message, or the trajectory of the file as it was; never a crash, a hang or another trajectory."""
 
 import concurrent.futures
-import os
 import random
 import struct
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import restart_file
 from talus_testing import SceneCase, Sphere, read_dump, run_lammps, write_sphere_data
 

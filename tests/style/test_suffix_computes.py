@@ -4,12 +4,9 @@
 """compute penalty/stats and compute timestep/gran of pair styles of LAMMPS that are accelerated by the suffix."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
 SCENE = """

@@ -10,10 +10,8 @@ import itertools
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import granular_models
 from talus_testing import SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo, write_sphere_data
 

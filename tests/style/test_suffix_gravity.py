@@ -1,11 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """fix gravity with the suffix beside fix rigid/small: where the order in the script matters in LAMMPS, the log says what differs."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump
 
 SCRIPT = """

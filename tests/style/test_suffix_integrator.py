@@ -5,10 +5,8 @@ bits wherever a step is made: in Talus' records or in the arrays of LAMMPS."""
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 

@@ -10,12 +10,9 @@ Where a wall is, is computed in two places, of which that of LAMMPS may fuse mul
 are powers of two, and cylinders are compared up to rounding.  Collisions of grains make rounding larger, each scene by
 another factor: how much, tells the stock wall itself with all grains displaced by the last digits of their places."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 

@@ -3,12 +3,9 @@
 """compute timestep/gran against its formulas, and the warning of pair gran/penalty about large time steps."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 

@@ -2,12 +2,9 @@
 """Warnings about friction without damping: where impacts gain energy, and not elsewhere."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 STEP = r"WARNING: Pair style gran/penalty: contacts of (.*) have a coefficient of friction of (\S+) and next to no damping: " \

@@ -5,11 +5,8 @@ forces and torques of rows that add up to those of the particles, for all that L
 move."""
 
 import collections
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import test_suffix_walls as walls_of_lammps
 from talus_testing import SceneCase, read_dump, read_local, thermo, write_sphere_data
 from tossed_grains import tossed_grains

@@ -6,12 +6,9 @@ Which grains may touch is found eight at a time; grains at random places, each o
 pushed by the stock fix and by ours. Those that are left out by mistake have no force, or keep a history that should be gone.
 Sides, open faces, motions, and unions and intersections."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 STIFFNESS = 100.0    # low: many grains begin deep in a wall
