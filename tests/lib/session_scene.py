@@ -3,18 +3,11 @@
 
 import random
 
-from talus_testing import Sphere
+from talus_testing import Sphere, head
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 BOX = (-1, 12), (-1, 10), (-1, 12)
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+START = head()
 PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
 # {ylo}: the body behind
 PHYSICS = f"""

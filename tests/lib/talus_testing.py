@@ -21,8 +21,10 @@ import tempfile
 import time
 import unittest
 
-__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
-           "part_of", "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
+from granular_script import begin, head
+
+__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "begin", "head", "marked_word", "max_difference", "part_of",
+           "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
            "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure

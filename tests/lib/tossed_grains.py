@@ -4,16 +4,10 @@
 import os
 import random
 
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, write_sphere_data
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton {newton}
-comm_modify vel yes
+SCENE = head(boundary="{boundary}", newton="{newton}") + """
 read_data grains
 {pair}
 neighbor 0.1 bin

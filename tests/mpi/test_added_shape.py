@@ -10,8 +10,7 @@ import random
 import unittest
 
 import body_meshes
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 from vtk_files import read_part, read_series
 
 WITH_SHAPE = {"LAMMPS_PLUGIN_PATH": os.path.join(os.environ["TALUS_BINARY_DIR"], "added")}

@@ -11,7 +11,7 @@ import random
 import re
 import unittest
 
-from talus_testing import (SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo,
+from talus_testing import (SceneCase, Sphere, head, max_difference, part_of, read_dump, read_local, thermo,
                            write_sphere_data)
 
 RANKS = 1, 2, 4
@@ -56,13 +56,7 @@ MINDLIN = ("pair_style granular\npair_coeff * * hertz/material 2e4 1.0 0.3 tange
            "damping coeff_restitution", "pair_style gran/penalty\npair_coeff * * hertz/material 2e4 1.0 0.3 "
            "tangential multistep NULL 0.0 0.5")
 
-SCRIPT = """
-units lj
-boundary p p p
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head(boundary="p p p") + """
 read_data {data}
 {pair}
 neighbor 0.1 bin

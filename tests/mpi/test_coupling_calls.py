@@ -7,14 +7,9 @@ import os
 import unittest
 
 from coupled_case import BUILD, CoupledCase
+from talus_testing import head
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 region all block -4 4 -4 4 -4 4
 create_box 1 all
 create_atoms 1 single -1 0 0.4

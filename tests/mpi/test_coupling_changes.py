@@ -6,14 +6,9 @@ ends well, with the right numbers, or in a TalusError, on any number of ranks, a
 import unittest
 
 from coupled_case import CoupledCase
+from talus_testing import head
 
-SCENE = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-boundary f f f
-comm_modify vel yes
+SCENE = head() + """
 region box block -3 3 -3 3 -3 3
 region reg block -3 3 -3 3 -3 3
 create_box 1 box

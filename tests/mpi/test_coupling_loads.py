@@ -8,16 +8,10 @@ import random
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, head, read_dump, write_sphere_data
 from tossed_clumps import write_clumps
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 neighbor 0.3 bin
 neigh_modify every 1 delay 0 check yes
@@ -46,13 +40,7 @@ INTEGRATORS = {
     "stock": "fix step all nve/sphere",
     "shapes": "fix shapes all shape/gran type 1 box 0.7 0.6 0.5 density 1 orient random 11",
 }
-CLUMPS = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+CLUMPS = head() + """
 fix prop all property/atom mol ghost yes
 read_data clumps fix prop NULL Molecules
 group clumps molecule > 0

@@ -11,26 +11,18 @@ import random
 import sys
 import unittest
 
-TESTS = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
 import body_meshes
 import deforming_reference
 import moved_mesh
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, head, read_dump, write_sphere_data
 
 STICKY = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 ROLLING = "hertz/material 1e6 0.7 0.3 tangential mindlin NULL 1.0 0.5 rolling sds 100 1 0.2 twisting sds 50 1 0.1"
 SECOND = "hooke 1e4 20 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 DT = 0.001
 
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head(boundary="{boundary}") + """
 {read}
 neighbor 0.2 bin
 neigh_modify every 1 delay 0 check yes
@@ -76,17 +68,13 @@ class MovedMesh(CoupledCase):
     def scene(self, triangles, move="vertices", law=STICKY, read="read_data grains", boundary="f f f", dt=DT, more="",
               integrator="nve/sphere/symplectic", gravity="gravity 5.0 vector 0 0 -1"):
         body_meshes.write_stl(self.path("mesh.stl"), triangles)
-        text = SCENE.format(boundary=boundary, read=read, law=law, dt=dt, integrator=integrator, gravity=gravity, mesh="mesh.stl",
+        return SCENE.format(boundary=boundary, read=read, law=law, dt=dt, integrator=integrator, gravity=gravity, mesh="mesh.stl",
                             move=move, more=more)
-        if "read_restart" in read:
-            for line in ("units lj", f"boundary {boundary}", "atom_style sphere"):
-                text = text.replace(line + "\n", "", 1)
-        return text
 
     def move(self, name, np=1, env=None, **spec):
         """Rows of the exchanges."""
         self.write(name + ".spec", json.dumps(spec))
-        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np, env)
+        self.launch([sys.executable, moved_mesh.__file__, name + ".spec", name], np, env)
         return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):

@@ -13,16 +13,11 @@ from coupled_case import CoupledCase
 PROGRAM = """
 import json, math, sys
 from lammps import lammps
+from granular_script import head
 from talus import Partner
 M, K, m, k, g, dt, u0, end = 3.0, 200.0, math.pi/6, 1e3, 5.0, 1e-4, 0.05, 2.0
 z0, overlap = -m*g/K, m*g/k
-SCENE = f'''
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + f'''
 region all block -2 2 -2 2 -4 8
 create_box 1 all
 create_atoms 1 single 0 0 {z0 + 0.5 - overlap!r}

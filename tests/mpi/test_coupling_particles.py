@@ -4,12 +4,11 @@
 records and in the arrays of LAMMPS; the same bits on any ranks and threads; drag impulses and fields that lose nothing;
 errors."""
 
-import json
 import math
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, write_sphere_data
+from talus_testing import Sphere, head, write_sphere_data
 
 HEAD = """
 import json, math, sys
@@ -40,12 +39,7 @@ def as_lists(rows):
     return [[float(x) for x in row] if hasattr(row, "__len__") else float(row) for row in rows]
 """
 
-FREE = """
-units lj
-boundary f f f
-atom_style sphere
-newton off
-comm_modify vel yes
+FREE = head(map=None) + """
 {extra}
 region all block 0 20 0 20 0 40
 create_box 1 all
@@ -71,13 +65,7 @@ INTEGRATORS = {
     "verlet": ("fix weight all " + GRAVITY + "\nfix step all nve/sphere", 0.5, 0.5),
 }
 
-CLUMPS = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+CLUMPS = head() + """
 fix prop all property/atom mol ghost yes
 region box block -10 10 -10 10 -20 20
 create_box 1 box
@@ -99,12 +87,7 @@ thermo_style custom step
 """
 
 # a bed that is stirred by forces, torques and drag on some of its grains, put anew every few steps
-BED = """
-units lj
-boundary p f f
-atom_style sphere
-newton off
-comm_modify vel yes
+BED = head(boundary="p f f", map=None) + """
 read_data grains
 neighbor 0.2 bin
 pair_style gran/penalty

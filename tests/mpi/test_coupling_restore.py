@@ -4,12 +4,11 @@
 between; what is refused; fixed point iteration on it."""
 
 import os
-import re
 import unittest
 
 import body_meshes
 from coupled_case import CoupledCase
-from saved_scenes import LAW, MOVE, SCENES, head, pair, tossed, walls
+from saved_scenes import LAW, MOVE, SCENES, pair, start, tossed, walls
 from talus_testing import read_dump, thermo
 
 BEGIN = """
@@ -34,7 +33,7 @@ def refusal(call, *words):
         return str(error)
     return "none"
 """
-PARTNER_SCENE = head() + pair() + MOVE + walls() + f"""
+PARTNER_SCENE = start() + pair() + MOVE + walls() + f"""
 fix guided all large/body box 8.5 1.0 3.5 1 1 1 outside contact {LAW} move external
 fix sheet all large/body mesh sheet.stl contact {LAW} move vertices
 """
@@ -202,7 +201,7 @@ class Restore(CoupledCase):
     def setUp(self):
         super().setUp()
         tossed(self.path("grains"))
-        self.write("scene", head("p p f") + pair() + MOVE + f"group few id 3 50 7 101\nfix floor all large/body plane 0 0 0 0 0 1 "
+        self.write("scene", start("p p f") + pair() + MOVE + f"group few id 3 50 7 101\nfix floor all large/body plane 0 0 0 0 0 1 "
                    f"contact {LAW}\n")
 
     def assert_same_end(self, name, other):
@@ -283,7 +282,7 @@ class Restore(CoupledCase):
     def test_refusals(self):
         for scene in "scene", "bare":
             if scene == "bare":
-                self.write("scene", head() + pair() + MOVE + walls())
+                self.write("scene", start() + pair() + MOVE + walls())
             self.drive(ERRORS, np=2)
             nothing, added, deleted, anew, bricks, other, sizes, root = self.read_json("said")
             self.assertEqual(nothing, "talus_restore: snapshot is NULL")

@@ -9,14 +9,9 @@ import subprocess
 import sys
 import unittest
 
-from talus_testing import PLUGIN, SceneCase
+from talus_testing import PLUGIN, SceneCase, head
 
-BOX = """
-units lj
-boundary {boundary}
-atom_style sphere
-newton off
-comm_modify vel yes
+BOX = head(boundary="{boundary}", map=None) + """
 region box block 0 8 0 7 0 6
 create_box 1 box
 region middle block 1 7 1 6 1 5

@@ -7,15 +7,9 @@ import itertools
 import math
 import unittest
 
-from talus_testing import SceneCase, marked_word, read_dump
+from talus_testing import SceneCase, head, marked_word, read_dump
 
-BEGIN = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+BEGIN = head("si", "{boundary}") + """
 region box block -1 1 -1 1 -1 1
 create_box 2 box
 region r {region}

@@ -7,16 +7,10 @@ import random
 import re
 import unittest
 
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 LENGTH = 12.0
-SCENE = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map yes
-newton {newton}
-comm_modify vel yes
+SCENE = head(boundary="p p f", newton="{newton}") + """
 read_data grains
 {modes}
 pair_style gran/penalty

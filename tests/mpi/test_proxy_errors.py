@@ -6,14 +6,9 @@ import os
 import re
 import unittest
 
-from talus_testing import SceneCase, marked_word, run_program
+from talus_testing import SceneCase, head, marked_word, run_program
 
-BOX = """
-units lj
-atom_style sphere
-newton off
-comm_modify vel yes
-{before}
+BOX = head(boundary="p p p", map=None) + """{before}
 region box block 0 8 0 7 0 6
 create_box 2 box
 create_atoms 1 random 250 77 box

@@ -6,17 +6,12 @@ import os
 import re
 import unittest
 
-from talus_testing import SceneCase
+from talus_testing import SceneCase, head
 
 STEPS = 70
 
 # like bench/in.chute of LAMMPS: grains on frozen ones, periodic along the chute
-CHUTE = """
-units lj
-atom_style sphere
-boundary p p fs
-newton off
-comm_modify vel yes
+CHUTE = head(boundary="p p fs", map=None) + """
 lattice sc 0.8
 region box block -0.5 9.5 -0.5 7.5 -0.5 9
 create_box 2 box
@@ -81,11 +76,7 @@ velocity all create 1.0 87287 loop geom
 neigh_modify every 1 delay 0 check yes
 fix 1 all nve
 """
-HYBRID = """
-units lj
-atom_style sphere
-newton off
-comm_modify vel yes
+HYBRID = head(boundary="p p p", map=None) + """
 lattice sc 0.9
 region box block 0 8 0 8 0 8
 create_box 2 box

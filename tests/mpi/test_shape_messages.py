@@ -5,16 +5,10 @@ periodic borders the rank of one tells the other: two cubes that rub on each oth
 import unittest
 
 from message_counts import counting, sent
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
 EVERY, STEPS = 5, 200
-SCRIPT = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head(boundary="{boundary}") + """
 processors 2 1 1
 read_data grains
 group balls type 1

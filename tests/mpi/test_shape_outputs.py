@@ -9,18 +9,12 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, read_dump, read_local, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, read_local, thermo, write_sphere_data
 
 WORDS = "id1 id2 body x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap fx fy fz tx ty tz fn ft eng h1 h2 h3".split()
 LAW = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 CELLS = 6, 6, 16
-SCENE = f"""
-units lj
-boundary {{boundary}} f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head(boundary="{boundary} f f") + f"""
 {{read}}
 group balls type 3
 neighbor 0.2 bin

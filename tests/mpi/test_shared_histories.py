@@ -8,19 +8,14 @@ import random
 import unittest
 
 from message_counts import counting, sent
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 EDGE, LARGE, SMALL = 24.0, 10.0, 0.5    # box, diameters
 SHELL, OTHERS = 1200, 1500
 DRIFT = 3.0, 2.0, 1.0                   # all move through borders
 STEPS, EVERY = 100, 10
 FRICTION, WITHOUT_HISTORY = "multistep", "onestep"
-SCRIPT = """
-units lj
-boundary p p p
-atom_style sphere
-newton off
-comm_modify vel yes
+SCRIPT = (head(boundary="p p p", map=None) + """
 {grid}
 read_data grains
 pair_style gran/penalty
@@ -35,7 +30,7 @@ thermo 1000
 dump all all custom 50 dump id x y z vx vy vz omegax omegay omegaz fx fy fz c_touching
 dump_modify all format float %%a sort id
 run %d
-""" % (EVERY, STEPS)
+""") % (EVERY, STEPS)
 
 
 def grains():

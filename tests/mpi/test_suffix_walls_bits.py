@@ -5,16 +5,11 @@ overlap, and where every step goes through the arrays of LAMMPS; -sf talus choos
 
 import unittest
 
-from talus_testing import SceneCase, read_dump, write_sphere_data
+from talus_testing import SceneCase, head, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
 LAW = "hooke/history 4000.0 NULL 20.0 NULL 0.5 0"
-SCENE = f"""
-units lj
-boundary f f f
-atom_style sphere
-newton off
-comm_modify vel yes
+SCENE = head(map=None) + f"""
 read_data grains
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5

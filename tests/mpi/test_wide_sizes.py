@@ -6,16 +6,10 @@ particle is a proxy only where something can touch it."""
 import re
 import unittest
 
-from talus_testing import SceneCase, read_dump
+from talus_testing import SceneCase, head, read_dump
 
 SMALL = 0.002
-HEAD = """units si
-atom_style sphere
-atom_modify map array
-boundary {sides} f
-newton {newton}
-comm_modify vel yes
-"""
+HEAD = head("si", "{sides} f", newton="{newton}")
 FILL = HEAD + """region box block 0 0.1 0 0.1 0 0.16 units box
 create_box 1 box
 pair_style gran/hertz/history 1e6 NULL 5e3 NULL 0.5 1

@@ -6,15 +6,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, thermo, write_sphere_data
 
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+START = head() + """
 {read}
 neighbor 0.2 bin
 pair_style gran/penalty
@@ -99,8 +93,7 @@ class Regions(SceneCase):
             many, _ = self.frame(f"np{np}", both + f"fix body all large/body region its {law}\n", np=np)
             self.assert_same_bits(one, many, COLUMNS)
         self.frame("half", both + f"fix body all large/body region its {law}\nrun 200\nwrite_restart half\n", 400)
-        again = START.format(read="read_restart half").replace("atom_style sphere\n", "").replace(
-            "units lj\n", "").replace("boundary f f f\n", "")
+        again = START.format(read="read_restart half")
         log = self.run_lammps(again + both + f"fix body all large/body region its {law}\n" +
                               OUTPUT.format(name="again") + "run 200\n", np=2).log
         self.assertNotIn("another kind of motion", log)

@@ -6,15 +6,9 @@ import random
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 {read}
 neighbor 0.2 bin
 pair_style gran/penalty
@@ -47,9 +41,6 @@ class Sides(SceneCase):
                   **options):
         write_sphere_data(self.path("grains"), ((-6, 6), (-6, 6), (-6, 6)), some, types)
         scene = SCENE.format(read=read)
-        if read != "read_data grains":
-            for line in ("units lj\n", "boundary f f f\n", "atom_style sphere\n"):
-                scene = scene.replace(line, "")
         return self.run_lammps(scene + body + OUTPUT.format(name=name, every=steps) + f"run {steps}\n" + more, name=name,
                                **options).log
 

@@ -5,16 +5,10 @@ import math
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 neighbor 0.2 bin
 pair_style gran/penalty

@@ -6,18 +6,12 @@ the same numbers; contacts between spheres of one clump are none."""
 
 import unittest
 
-from talus_testing import SceneCase, thermo
+from talus_testing import SceneCase, head, thermo
 from tossed_clumps import write_clumps
 
 LAW = "hertz/material 1e6 0.5 0.3 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 WALLS = "0 0 0  0 0 1", "0 0 0  1 0 0", "9 0 0  -1 0 0", "0 0 0  0 1 0", "0 9 0  0 -1 0"
-HEAP = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+HEAP = head() + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 velocity all set 0 0 0

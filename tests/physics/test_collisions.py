@@ -5,8 +5,7 @@ the weight of spheres on a floor.  Tables of the figures are printed."""
 import math
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, relative_difference, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, relative_difference, thermo, write_sphere_data
 
 SCRIPT = begin(data="particles") + """
 pair_coeff * * {law}

@@ -11,8 +11,7 @@ import itertools
 import math
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, part_of, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, part_of, read_dump, thermo, write_sphere_data
 
 ANGLES = (*range(0, 90, 5), 89)
 FRICTION = 0.0, 0.1, 0.3, 0.5, 1.0, 2.0

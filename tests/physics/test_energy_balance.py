@@ -7,8 +7,7 @@ import math
 import random
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, relative_difference, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
 CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE = (f"c_s[{n}]" for n in range(1, 8))
 ENERGIES = (ELASTIC, NORMAL, TANGENTIAL, RESISTANCE)

@@ -7,15 +7,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 
-POUR = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+POUR = head() + """
 read_data grains
 neighbor {skin} bin
 neigh_modify every 1 delay 0 check yes

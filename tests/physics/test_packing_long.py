@@ -6,14 +6,9 @@ spheres (.64)."""
 
 import unittest
 
-from talus_testing import SceneCase, thermo
+from talus_testing import SceneCase, head, thermo
 
-SCENE = """
-units lj
-atom_style sphere
-boundary p p p
-newton off
-comm_modify vel yes
+SCENE = head(boundary="p p p", map=None) + """
 lattice sc {lattice!r}
 region box block 0 8.4 0 8.4 0 8.4 units box
 create_box 1 box

@@ -7,8 +7,7 @@ import math
 import unittest
 
 import body_meshes
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
 R, YOUNG, NU, GAMMA = 0.5, 1e5, 0.3, 50.0
 E_EFF = YOUNG / (2 * (1 - NU * NU))    # of two bodies of this material

@@ -7,8 +7,7 @@ Cases of one test share a run, far from each other: every case has an atom type 
 import math
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, read_local, write_sphere_data
 
 R, RHO, G = 0.5, 2000.0, 9.81
 MASS = RHO * 4 / 3 * math.pi * R**3

@@ -5,15 +5,9 @@
 import math
 import unittest
 
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
-BEGIN = """
-units si
-atom_style sphere
-atom_modify map yes
-boundary f f f
-newton off
-comm_modify vel yes
+BEGIN = head("si") + """
 read_data grains
 pair_style gran/penalty
 pair_coeff * * {law}

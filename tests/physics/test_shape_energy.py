@@ -6,15 +6,9 @@ order in the time step; what dissipates is known by hand."""
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 group balls type 3
 neighbor 0.2 bin

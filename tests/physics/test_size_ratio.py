@@ -10,8 +10,7 @@ synchronized_verlet, velocity Verlet)."""
 import math
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
 BIG, SMALL, DENSITY = 0.01, 0.0005, 2500.0    # diameters
 MASS = DENSITY * math.pi / 6 * SMALL**3

@@ -15,8 +15,7 @@ as well, unless its resistance has a threshold of speed."""
 import math
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 R, RHO, G, MU = 0.5, 2000.0, 9.81, 0.5
 MASS = RHO * 4 / 3 * math.pi * R**3

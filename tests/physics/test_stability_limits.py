@@ -9,7 +9,7 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, write_sphere_data
 
 DENSITY = 6 / math.pi
 OVERLAP, KICK = 1e-3, 1e-9
@@ -126,13 +126,7 @@ class Limits(SceneCase):
             self.assertEqual(self.grows("data", friction, limit, "p p p"), [False, True], friction)
 
 
-GAS = """
-units si
-boundary p p p
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+GAS = head("si", "p p p") + """
 read_data data
 neighbor 0.1 bin
 pair_style gran/penalty

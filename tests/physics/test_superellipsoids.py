@@ -10,15 +10,9 @@ import random
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head(boundary="{boundary}") + """
 {read}
 neighbor 0.2 bin
 neigh_modify every 1 delay 0 check yes

@@ -3,8 +3,7 @@
 
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
 SCENE = begin(boundary="{boundary}") + """
 pair_coeff * * {law}

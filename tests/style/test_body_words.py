@@ -11,7 +11,7 @@ import subprocess
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, marked_word, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, marked_word, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
 SOURCE = os.environ["TALUS_SOURCE_DIR"]
@@ -19,13 +19,7 @@ LAW = "contact hooke 1e4 10"
 BOX = "box 0 0 0 4 4 4 inside"
 FREE = "move free mass 1 inertia 1 1 1"
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 neighbor 0.2 bin
 pair_style gran/penalty
@@ -197,8 +191,7 @@ thermo_modify format float %.15g
             self.assertEqual(plate_then.cells, {"Polys": [[0, 1, 2], [3, 4, 5]]})
             row = [r for r in rows if r["Step"] == step][-1]
             self.assertAlmostEqual(plate_then.cell_data["pressure"][0], row["f_body[1][1]"], delta=1e-6)
-        restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace(
-            "read_data grains", "read_restart half")
+        restart = SCENE.replace("read_data grains", "read_restart half")
         again = thermo(self.run_lammps(restart + commands + "run 50\n").log)
         self.assertAlmostEqual(again[-1]["f_body[1][3]"], rows[-1]["f_body[1][3]"], delta=1e-13)
 
@@ -215,7 +208,7 @@ thermo 30
 thermo_modify format float %.15g
 """
         whole = thermo(self.run_lammps(SCENE + commands + "run 30\nwrite_restart half\nrun 30\n", np=2).log)[-1]
-        restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace("read_data grains", "read_restart half")
+        restart = SCENE.replace("read_data grains", "read_restart half")
         for np in 1, 2:
             again = thermo(self.run_lammps(restart + commands + "run 30\n", np=np).log)[-1]
             for word, value in whole.items():

@@ -7,17 +7,11 @@ import math
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, max_difference, read_dump, thermo
+from talus_testing import SceneCase, head, max_difference, read_dump, thermo
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 LAW = "hooke 2e4 30 tangential multistep NULL 10 0.3"
-BOX = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+BOX = head() + """
 fix prop all property/atom mol ghost yes
 region box block -10 10 -10 10 -10 10
 create_box 2 box
@@ -32,12 +26,7 @@ END = """
 run {steps}
 write_dump all custom last id {motion} modify format float %.17g sort id
 """
-AGAIN = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+AGAIN = head() + """
 read_restart state
 fix prop all property/atom mol ghost yes
 pair_style gran/penalty

@@ -7,7 +7,7 @@ import math
 import os
 import unittest
 
-from talus_testing import SceneCase, max_difference, read_dump, thermo
+from talus_testing import SceneCase, head, max_difference, read_dump, thermo
 from tossed_clumps import write_clumps
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
@@ -16,14 +16,7 @@ RECORDS = "steps without output              in the records"
 PAIR = "pair_style gran/hertz/history@ 20000 NULL 50 NULL 0.5 1\npair_coeff * *"
 WALL = "wall/gran@ hertz/history 20000 NULL 50 NULL 0.5 1"
 
-SPHERES = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-"""
-HEAD = SPHERES + "{before}\nboundary p p f\n"
+HEAD = head(boundary="p p f") + "{before}\n"
 REST = """
 group single type 2
 group clumps type 1
@@ -219,7 +212,7 @@ fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential m
                     self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
 
 
-MIXED = SPHERES + """boundary p p f
+MIXED = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group shapes type 2
@@ -263,7 +256,7 @@ class ClumpsAndShapes(ClumpCase):
             self.assertAlmostEqual(sum(q * q for q in row[6:10]), 1.0, delta=1e-4)
 
 
-FREE = SPHERES + """boundary p p p
+FREE = head(boundary="p p p") + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group which molecule 1
@@ -300,7 +293,7 @@ class FreeClump(ClumpCase):
                 self.assertAlmostEqual(row[k], rows[0][k], delta=1e-12)
 
 
-ONE = SPHERES + """boundary p p f
+ONE = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 9
 create_box 1 box
@@ -335,7 +328,7 @@ class OneSphere(SceneCase):
         self.assertGreater(abs(frames[0].column("omegay")[1]), 0.1)    # it has touched the floor
 
 
-POUR = SPHERES + """boundary p p f
+POUR = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 14
 create_box 1 box

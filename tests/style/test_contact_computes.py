@@ -9,7 +9,7 @@ import re
 import unittest
 
 from granular_script import begin
-from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, relative_difference, thermo,
+from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, thermo,
                            write_sphere_data)
 
 LAW = "hertz/material 1e7 0.5 0.3 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"

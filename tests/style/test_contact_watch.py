@@ -5,7 +5,7 @@ import math
 import re
 import unittest
 
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, write_sphere_data
 
 OVERLAP = r"WARNING: Pair style gran/penalty: particles (\d+) and (\d+) overlap by (\S+) of the smaller radius at step"
 MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its radius in a time step at step"
@@ -13,13 +13,7 @@ MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its 
 BODY_OVERLAP = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step"
 BODY_MOVE = r"WARNING: Fix large/body (\S+): particle (\d+) and the body move past each other by (\S+) of its radius"
 
-SCRIPT = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+SCRIPT = head("si", "{boundary}") + """
 read_data data
 neighbor 0.3 bin
 pair_style gran/penalty

@@ -9,14 +9,9 @@ import re
 import tempfile
 import unittest
 
-from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
+from talus_testing import SceneCase, head, marked_word, ranks_of_refusal, thermo
 
-BOX = """
-units si
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+BOX = head("si", "p p p") + """
 region box block -4 4 -4 4 -4 4
 create_box 2 box
 create_atoms 1 single -2 0 0

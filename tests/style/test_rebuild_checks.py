@@ -6,15 +6,9 @@ import random
 import re
 import unittest
 
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+SCRIPT = head("si") + """
 read_data data
 neighbor 0.2 bin
 neigh_modify {checks}
@@ -28,13 +22,7 @@ dump_modify all format float %a
 {run}
 """
 # a bed at rest, whose grains are apart by less than they move in the first step
-BED = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+BED = head() + """
 read_data data
 neighbor {skin} bin
 neigh_modify every 1 delay 0 check {check}

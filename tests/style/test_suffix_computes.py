@@ -7,15 +7,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
-SCENE = """
-units si
-boundary f f f
-newton {newton}
-atom_style sphere
-atom_modify map yes
-comm_modify vel yes
+SCENE = head("si", newton="{newton}") + """
 read_data data
 {pair}
 neighbor 0.1 bin

@@ -13,7 +13,7 @@ import re
 import unittest
 
 import granular_models
-from talus_testing import SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, part_of, read_dump, read_local, thermo, write_sphere_data
 
 TOLERANCE = 5e-13
 VECTORS = ("fx", "fy", "fz"), ("tqx", "tqy", "tqz")
@@ -94,12 +94,7 @@ class Case(SceneCase):
         self.assertRegex(log, r"pair granular +accelerated")
 
 
-NO_PARTICLES = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-comm_modify vel yes
+NO_PARTICLES = head(map=None) + """
 region box block 0 8 0 8 0 8
 create_box 4 box
 create_atoms 2 single 4 4 4

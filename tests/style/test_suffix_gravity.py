@@ -3,15 +3,9 @@
 
 import unittest
 
-from talus_testing import SceneCase, read_dump
+from talus_testing import SceneCase, head, read_dump
 
-SCRIPT = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head() + """
 fix body all property/atom mol ghost yes
 region box block -5 5 -5 5 -5 5
 create_box 1 box

@@ -13,19 +13,12 @@ another factor: how much, tells the stock wall itself with all grains displaced 
 import re
 import unittest
 
-from talus_testing import SceneCase, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, head, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
 RECORDS = "steps without output are made in Talus' own records|steps without output +in the records"
 HOST = "every step goes through the arrays of LAMMPS: |through the arrays of LAMMPS: "
-BEGIN = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+BEGIN = head()
 SCENE = BEGIN + """
 {read}
 group some id <= 100

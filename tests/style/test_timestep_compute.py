@@ -6,8 +6,7 @@ import math
 import re
 import unittest
 
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
 SCRIPT = begin(units="{units}") + """
 {pairs}
