@@ -4,8 +4,7 @@
 
 #include "body/shape/plane.h"
 #include "body/shape/rectangle.h"
-#include "random_source.h"
-#include "slow_contact.h"
+#include "packing.h"
 
 #include <gtest/gtest.h>
 

@@ -38,6 +38,30 @@ inline std::vector<NamedLaw> law_pairs()
   return laws;
 }
 
+/// Those that the stock styles have as well.
+inline std::vector<NamedLaw> stock_laws()
+{
+  std::vector<NamedLaw> laws;
+  for (Normal normal : {Normal::HOOKE, Normal::HERTZ})
+    for (Tangential tangential :
+         {Tangential::NONE, Tangential::DASHPOT, Tangential::ONESTEP, Tangential::MULTISTEP})
+      laws.push_back({normal, tangential});
+  return laws;
+}
+
+/// Of laws that take stiffness and damping as they are given.
+inline Composite composite_of(const named::Numbers &n)
+{
+  Composite c;
+  c.kn = n.kn;
+  c.gn = n.gn;
+  c.kt = n.kt;
+  c.gt = n.gt;
+  c.mu = n.mu;
+  c.limited = n.force_floor == 0.0;
+  return c;
+}
+
 /// The same law with and without resistance, at once or delayed, and adhesion of every kind.
 inline std::vector<NamedLaw> variants(NamedLaw law)
 {
