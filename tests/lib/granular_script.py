@@ -14,6 +14,8 @@ comm_modify vel yes
 """
 
 
-def begin(units="si", boundary="f f f", data="data"):
-    """Up to the pair style."""
-    return head(units, boundary) + f"read_data {data}\npair_style gran/penalty\n"
+def begin(units="lj", boundary="f f f", read="read_data data", law=None, skin=None, dt=None, **more):
+    """Up to the pair style, with what is given of its coefficients, the skin and the time step."""
+    given = {f"pair_coeff * * {law}": law, f"neighbor {skin} bin": skin, f"timestep {dt}": dt}
+    return "\n".join([head(units, boundary, **more) + read, "pair_style gran/penalty",
+                      *(line for line, value in given.items() if value is not None), ""])

@@ -35,7 +35,6 @@ def start(boundary="f f f", read="read_data grains", style="sphere", more=""):
     return head(boundary=boundary, style=style) + f"""{more}
 {read}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 thermo 100000
 thermo_style custom step atoms

@@ -12,7 +12,6 @@ PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
 # {ylo}: the body behind
 PHYSICS = f"""
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
 fix floor all large/body plane 0 0 0  0 0 1  contact {LAW}

@@ -11,7 +11,6 @@ SCENE = head(boundary="{boundary}", newton="{newton}") + """
 read_data grains
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 {movers}
 fix floor all large/body plane 0 0 0  0 0 1  contact {law}

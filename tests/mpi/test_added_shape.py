@@ -22,10 +22,7 @@ ACROSS = OF_CYLINDER * (LENGTH ** 2 / 12 + RADIUS ** 2 / 4) \
     + OF_BALL * (0.4 * RADIUS ** 2 + LENGTH ** 2 / 4 + 0.375 * LENGTH * RADIUS)
 ALONG = OF_CYLINDER * RADIUS ** 2 / 2 + OF_BALL * 0.4 * RADIUS ** 2
 
-HEAD = begin("lj", data="{data}").replace("read_data {data}", "{read}") + """
-pair_coeff * * {law}
-neighbor 0.2 bin
-timestep {dt}
+HEAD = begin(read="{read}", law="{law}", skin=0.2, dt="{dt}") + """
 """
 COLUMNS = "x y z vx vy vz omegax omegay omegaz f_s[1] f_s[2] f_s[3] f_s[4]".split()
 END = f"\nwrite_dump all custom end id radius mass {' '.join(COLUMNS)} modify format float %a"

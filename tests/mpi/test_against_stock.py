@@ -60,7 +60,6 @@ SCRIPT = head(boundary="p p p") + """
 read_data {data}
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere
 compute stress all stress/atom NULL

@@ -51,7 +51,6 @@ comm_modify vel yes
 """
 PHYSICS = """
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 5e-4
 fix step all nve/sphere/symplectic start half gravity 10.0 vector 0.2 0.1 -1
 fix floor all large/body plane 0 0 -0.6 0 0 1 contact types 1 {first} contact types 2 {last}

@@ -17,7 +17,6 @@ START = head() + """
 processors {grid}
 {read}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep 0.001

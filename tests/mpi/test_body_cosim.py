@@ -8,15 +8,9 @@ import struct
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, head, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, head, read_dump, write_sphere_data
 
-SCENE = head() + """
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential multistep NULL NULL 0.5
-timestep 0.001
+SCENE = begin(read="{read}", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 fix floor all large/body box 0 0 4 6 6 8 inside contact hooke 1e4 20 tangential multistep NULL NULL 0.5
 variable dx equal 0.3*sin(2.0*step*0.001)

@@ -8,16 +8,10 @@ import random
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, head, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, head, read_dump, write_sphere_data
 from tossed_clumps import write_clumps
 
-SCENE = head() + """
-read_data grains
-neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hooke 1e3 {damping} limit_damping
-timestep {dt}
+SCENE = begin(read="read_data grains", law="hooke 1e3 {damping} limit_damping", skin=0.3, dt="{dt}") + """
 {integrator}
 {more}
 fix body all large/body box 0 0 0 4 4 4 inside contact hooke 1e3 {damping} limit_damping {friction} {move}

@@ -15,20 +15,14 @@ import body_meshes
 import deforming_reference
 import moved_mesh
 from coupled_case import CoupledCase
-from talus_testing import Sphere, head, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, read_dump, write_sphere_data
 
 STICKY = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 ROLLING = "hertz/material 1e6 0.7 0.3 tangential mindlin NULL 1.0 0.5 rolling sds 100 1 0.2 twisting sds 50 1 0.1"
 SECOND = "hooke 1e4 20 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 DT = 0.001
 
-SCENE = head(boundary="{boundary}") + """
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt}
+SCENE = begin(boundary="{boundary}", read="{read}", law="{law}", skin=0.2, dt="{dt}") + """
 fix step all {integrator} {gravity}
 fix body all large/body mesh {mesh} contact {law} move {move} {more}
 thermo_style custom step

@@ -8,7 +8,7 @@ import math
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, head, write_sphere_data
+from talus_testing import Sphere, begin, head, write_sphere_data
 
 HEAD = """
 import json, math, sys
@@ -87,12 +87,8 @@ thermo_style custom step
 """
 
 # a bed that is stirred by forces, torques and drag on some of its grains, put anew every few steps
-BED = head(boundary="p f f", map=None) + """
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential multistep NULL NULL 0.5
-timestep 0.001
+BED = begin(boundary="p f f", read="read_data grains", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001,
+            map=None) + """
 {move}
 fix floor all large/body box 0 0 4 8.2 6 8 inside contact hooke 1e4 20 tangential multistep NULL NULL 0.5
 thermo {thermo}

@@ -15,7 +15,6 @@ read_data grains
 {modes}
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 fix floor all large/body plane 0 0 0  0 0 1  contact hertz 4000.0 40.0 tangential multistep NULL NULL 0.5

@@ -33,7 +33,6 @@ read_data grains
 pair_style gran/penalty
 pair_coeff * * {law}
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic
 {more}

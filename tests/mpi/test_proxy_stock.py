@@ -49,7 +49,6 @@ velocity all create 1.44 87287 loop geom
 pair_style lj/cut 2.5
 pair_coeff 1 1 1.0 1.0 2.5
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 fix 1 all nve
 fix 2 all deform 1 xy erate 0.05 remap x
 """
@@ -73,7 +72,6 @@ special_bonds lj 0 1 1
 neighbor 0.3 bin
 create_bonds many all all 1 0.5 1.02
 velocity all create 1.0 87287 loop geom
-neigh_modify every 1 delay 0 check yes
 fix 1 all nve
 """
 HYBRID = head(boundary="p p p", map=None) + """
@@ -91,7 +89,6 @@ pair_coeff 1 1 soft 0.0
 pair_coeff 2 2 soft 1.0
 velocity all create 2.0 87287 loop geom
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.002
 fix 1 all nve/sphere
 compute clusters all cluster/atom 1.1

@@ -19,7 +19,6 @@ processors {grid}
 {read}
 group balls type 3
 neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep 0.0005

@@ -18,7 +18,6 @@ SCENE = head(boundary="{boundary} f f") + f"""
 {{read}}
 group balls type 3
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {LAW}
 timestep 5e-4

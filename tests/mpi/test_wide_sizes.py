@@ -21,7 +21,6 @@ SCENE = HEAD + """{read}
 {modes}
 pair_style gran/hertz/history 1e6 NULL 5e3 NULL 0.5 1
 pair_coeff * *
-neigh_modify every 1 delay 0 check yes
 timestep 1e-5
 fix weight all gravity 9.81 vector 0.3 0 -1
 fix move all nve/sphere

@@ -10,17 +10,12 @@ import unittest
 
 import body_meshes
 import body_reference
-from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
 DETACHING = "jkr 2.0e4 300.0 0.3 0.3 tangential mindlin NULL 0.0 0.3"
 COUNT = 8    # spheres in a row along y, 2 from each other
-SCENE = head() + f"""
-read_data data
-neighbor 0.5 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {{law}}
+SCENE = begin(law="{law}", skin=0.5) + f"""
 fix step all nve/sphere/symplectic {{order}} gravity 10 vector 0 0 -1
 {{body}}
 timestep {{dt!r}}

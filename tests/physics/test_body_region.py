@@ -6,14 +6,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, max_difference, read_dump, thermo, write_sphere_data
 
-START = head() + """
-{read}
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential dashpot 20 0.5
-timestep 0.001
+START = begin(read="{read}", law="hooke 1e4 20 tangential dashpot 20 0.5", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 variable z equal 0.3*sin(0.008*step)
 variable x equal 0.2*sin(0.005*step)

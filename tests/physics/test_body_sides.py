@@ -6,14 +6,9 @@ import random
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, max_difference, read_dump, write_sphere_data
 
-SCENE = head() + """
-{read}
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hertz 2e5 150 tangential multistep NULL NULL 0.4
-timestep 0.001
+SCENE = begin(read="{read}", law="hertz 2e5 150 tangential multistep NULL NULL 0.4", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0.2 0.1 -1
 """
 LAW = "contact hertz 2e5 150 tangential multistep NULL NULL 0.4"

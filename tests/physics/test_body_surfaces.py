@@ -5,15 +5,10 @@ import math
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
-SCENE = head() + """
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 0
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hooke 1e4 0", skin=0.2, dt=0.001) + """
 {step}
 """
 BALL = "fix step all nve/sphere/symplectic gravity 10 vector 0 0 -1"

@@ -9,15 +9,9 @@ import unittest
 
 import body_balance
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = head() + """
-read_data grains
-neighbor 0.15 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hertz 4e4 200 tangential multistep NULL NULL 0.4
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hertz 4e4 200 tangential multistep NULL NULL 0.4", skin=0.15, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 variable t equal step*0.001
 variable on equal step<{end}

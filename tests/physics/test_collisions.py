@@ -7,9 +7,7 @@ import unittest
 
 from talus_testing import SceneCase, Sphere, begin, read_dump, relative_difference, thermo, write_sphere_data
 
-SCRIPT = begin(data="particles") + """
-pair_coeff * * {law}
-neighbor {skin} bin
+SCRIPT = begin("si", read="read_data particles", law="{law}", skin="{skin}") + """
 fix step all nve/sphere/symplectic start half {gravity}
 timestep {dt!r}
 {more}

@@ -55,10 +55,9 @@ LIMITED = "none", "multistep", "own"    # run with limit_damping as well
 
 EXACT = "hooke", "hertz", "hooke/material"    # restitution is that of the words
 
-SCRIPT = begin(data="{data}") + """
+SCRIPT = begin("si", read="read_data {data}") + """
 {coefficients}
 neighbor 0.02 bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 {plane}
 timestep {dt!r}

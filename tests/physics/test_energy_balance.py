@@ -13,11 +13,9 @@ CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE = (f"c_s[
 ENERGIES = (ELASTIC, NORMAL, TANGENTIAL, RESISTANCE)
 G = 9.81
 
-SCRIPT = begin(units="{units}") + """
-pair_coeff * * {pair}
+SCRIPT = begin("{units}", law="{pair}") + """
 {more}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 timestep {dt}
 compute s all penalty/stats
 compute t all timestep/gran

@@ -7,15 +7,9 @@ import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-POUR = head() + """
-read_data grains
-neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt}
+POUR = begin(read="read_data grains", law="{law}", skin="{skin}", dt="{dt}") + """
 fix s all shape/gran {shapes}
 fix g all gravity/talus 10 vector 0 0 -1
 fix walls all large/body box 0 0 {top} {side} {side} $(2*{top}) inside contact {law}

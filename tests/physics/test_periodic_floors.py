@@ -47,7 +47,6 @@ create_atoms 1 random 60 77 grains overlap 1.0 maxtry 200
 displace_atoms all move {shift} 0 0
 set group all diameter 1.0 density 1.0
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 velocity all set 2 0.5 0
 pair_style gran/penalty
 pair_coeff * * {law}
@@ -68,7 +67,6 @@ create_box 1 box
 create_atoms 1 single 2.0995 2 1
 set group all diameter 1.0 density 1.0
 neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
 velocity all set 1 0 0
 pair_style gran/penalty
 pair_coeff * * hooke 1e4 0

@@ -30,11 +30,7 @@ def lost(r_eff):
     return work((9 / 4 * cube)**(1 / 3), r_eff) - work((4 * cube)**(1 / 3), r_eff)
 
 
-DRIVEN = begin() + """
-pair_coeff * * {pair}
-neighbor 0.05 bin
-neigh_modify every 1 delay 0 check yes
-timestep 1e-3
+DRIVEN = begin("si", law="{pair}", skin=0.05, dt=1e-3) + """
 fix drive all move wiggle 0 0 {depth} 2.0
 {wall}
 dump state all custom 1 {out} id z fz
@@ -96,11 +92,7 @@ class PullOff(SceneCase):
             self.assertTrue(all(frame.column("fz")[2] >= 0.0 for frame in frames))
 
 
-IMPACT = begin() + """
-pair_coeff * * {words}
-neighbor 0.05 bin
-neigh_modify every 1 delay 0 check yes
-timestep {dt}
+IMPACT = begin("si", law="{words}", skin=0.05, dt="{dt}") + """
 fix step all nve/sphere/symplectic start half
 {wall}
 compute s all penalty/stats

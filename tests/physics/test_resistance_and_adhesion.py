@@ -16,11 +16,10 @@ GN = 100.0                  # 1/s
 DT = 1e-4
 HOOKE = f"hooke {KN} {GN}"
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 {more}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep {dt}
 thermo {steps}
 dump d all custom {every} out id x y z vx vy vz omegax omegay omegaz fx fy fz

@@ -5,14 +5,9 @@
 import math
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
-BEGIN = head("si") + """
-read_data grains
-pair_style gran/penalty
-pair_coeff * * {law}
-neighbor 0.1 bin
-timestep {dt}
+BEGIN = begin("si", read="read_data grains", law="{law}", skin=0.1, dt="{dt}") + """
 """
 DUMP = "write_dump all custom state id x vx omegax omegay omegaz tqx tqy tqz modify sort id format float %.17g\n"
 KN, MU = 1000.0, 0.3

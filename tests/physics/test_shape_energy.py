@@ -12,7 +12,6 @@ SCENE = head() + """
 read_data grains
 group balls type 3
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep {dt!r}

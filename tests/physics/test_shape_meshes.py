@@ -8,15 +8,9 @@ import random
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = head() + """
-read_data grains
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt}
+SCENE = begin(read="read_data grains", law="{law}", skin=0.2, dt="{dt}") + """
 {shapes}
 fix body all large/body {body} contact {law} {motion}
 {commands}

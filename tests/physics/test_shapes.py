@@ -7,15 +7,9 @@ import math
 import os
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = head() + """
-read_data grains
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {pair}
-timestep {dt}
+SCENE = begin(read="read_data grains", law="{pair}", skin=0.2, dt="{dt}") + """
 {commands}
 thermo {thermo}
 thermo_style custom step ke {columns}

@@ -19,7 +19,7 @@ GN = -2 * math.sqrt(KN / MASS) * math.log(E) / math.hypot(math.pi, math.log(E))
 STEPS = 300000
 PUBLISHED = {90000: 8.3124767e-12, 144000: 2.799638e-10, 204000: 3.2458236e-08, STEPS: 4.5214992e-10}
 
-SCRIPT = begin(boundary="p p f") + """
+SCRIPT = begin("si", boundary="p p f") + """
 group big type 1
 group small type 2
 pair_coeff * * {law}

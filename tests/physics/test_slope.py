@@ -23,11 +23,10 @@ KN, KT, GN, GT = 1e7, 4e6, 100.0, 200.0    # GT: overdamped, so that friction do
 DT = 2e-4
 STEPS = 100000
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 fix floor all large/body plane 0 0 0 0 0 1 {contacts}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 {move}
 timestep {dt}
 thermo {every}

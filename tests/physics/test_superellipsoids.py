@@ -10,15 +10,9 @@ import random
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = head(boundary="{boundary}") + """
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt!r}
+SCENE = begin(boundary="{boundary}", read="{read}", law="{law}", skin=0.2, dt="{dt!r}") + """
 {commands}
 thermo {every}
 thermo_style custom step {columns}

@@ -5,9 +5,7 @@ import unittest
 
 from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
-SCENE = begin(boundary="{boundary}") + """
-pair_coeff * * {law}
-neighbor 0.1 bin
+SCENE = begin("si", boundary="{boundary}", law="{law}", skin=0.1) + """
 fix step all {step}
 timestep 1e-4
 thermo 20

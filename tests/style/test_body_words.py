@@ -11,7 +11,7 @@ import subprocess
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, marked_word, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, marked_word, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
 SOURCE = os.environ["TALUS_SOURCE_DIR"]
@@ -19,12 +19,7 @@ LAW = "contact hooke 1e4 10"
 BOX = "box 0 0 0 4 4 4 inside"
 FREE = "move free mass 1 inertia 1 1 1"
 
-SCENE = head() + """
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 10
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hooke 1e4 10", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 region well cylinder z 0 0 3 -3 3
 variable a equal 3

@@ -25,7 +25,6 @@ SCENE = {
 HEAD = head() + """
 read_data grains
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.0005
 """
 TAIL = """

@@ -7,15 +7,12 @@ import re
 import unittest
 
 import body_meshes
-from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 ELASTIC = r"WARNING: Pair style gran/penalty: no contact has damping or friction: at this time step, (\S+) of the critical one, " \
           r"impacts of (.*) gain or lose some energy by chance, which adds up over many: use at most (\S+) of it"
 
-SCRIPT = head("si") + """
-read_data data
-neighbor 0.1 bin
-pair_style gran/penalty
+SCRIPT = begin("si", skin=0.1) + """
 {pairs}
 fix move all nve/sphere/symplectic start {start}
 {more}

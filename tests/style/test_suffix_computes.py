@@ -13,7 +13,6 @@ SCENE = head("si", newton="{newton}") + """
 read_data data
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 2e-5
 fix step all nve/sphere/symplectic
 compute s all penalty/stats

@@ -30,7 +30,6 @@ read_data data
 pair_style granular
 {coeffs}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 group some id 1:1000:2
 fix drive some move wiggle {amplitude} 0.7
@@ -300,7 +299,6 @@ atom_modify sort 0 0.0
 pair_style granular
 {coeffs}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere
 {more}

@@ -31,7 +31,6 @@ group loose subtract all base
 pair_style gran/penalty
 pair_coeff * * {law}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 {fixes}
 {floor}

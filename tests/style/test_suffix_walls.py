@@ -25,7 +25,6 @@ group some id <= 100
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 10.0 vector 0.3 0.1 -1
 {walls}

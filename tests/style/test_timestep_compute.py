@@ -8,11 +8,10 @@ import unittest
 
 from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
-SCRIPT = begin(units="{units}") + """
+SCRIPT = begin("{units}") + """
 {pairs}
 {more}
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 timestep {dt!r}
 {group}
@@ -55,8 +54,7 @@ def hertz_time(types, young, speed):
     return 2.87 * (m * m / (r * young**2 * speed))**0.2
 
 
-CLUMPS = begin(units="si") + """
-pair_coeff * * {law}
+CLUMPS = begin("si", law="{law}") + """
 {body}
 fix prop all property/atom mol ghost yes
 set atom 1*2 mol 1

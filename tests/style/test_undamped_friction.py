@@ -5,17 +5,14 @@ import math
 import re
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 STEP = r"WARNING: Pair style gran/penalty: contacts of (.*) have a coefficient of friction of (\S+) and next to no damping: " \
        r"at this time step, (\S+) of the critical one,"
 SPRING = r"WARNING: Pair style gran/penalty: contacts of (.*) have a coefficient of friction of ([^ ,]+)(?:, rolling resistance of " \
          r"(\S+))? and next to no damping: impacts gain energy at any time step"
 
-SCRIPT = head("si") + """
-read_data data
-neighbor 0.1 bin
-pair_style gran/penalty
+SCRIPT = begin("si", skin=0.1) + """
 {pairs}
 fix move all nve/sphere/symplectic
 {more}

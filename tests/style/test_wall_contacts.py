@@ -20,7 +20,6 @@ read_data grains
 pair_style gran/penalty
 pair_coeff * * {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 10.0 vector 0.3 0.1 -1
 {walls}

@@ -9,7 +9,7 @@ Sides, open faces, motions, and unions and intersections."""
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 STIFFNESS = 100.0    # low: many grains begin deep in a wall
 HOOKE = f"hooke/history {STIFFNESS} NULL 5.0 NULL 0.5 0"
@@ -53,10 +53,7 @@ NESTED = "region n{k} union 2 a{k} c{k}\nregion w{k} intersect 2 n{k} b{k}\n"
 
 GRAINS = 400    # that know a region
 NEXT_TO_THE_SURFACE = 3    # of them at most
-SCENE = head() + """
-read_data grains
-pair_style gran/penalty
-pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
+SCENE = begin(read="read_data grains", law="hertz 4000.0 40.0 tangential multistep NULL NULL 0.5") + """
 neigh_modify exclude group all all every 1 {check}
 neighbor 0.3 bin
 timestep 0.001
