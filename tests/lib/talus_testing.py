@@ -252,6 +252,15 @@ class SceneCase(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.dir, name)
 
+    def read(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return name
+
     def run_lammps(self, script_text, **options):
         return run_lammps(script_text, **{"cwd": self.dir, **options})
 

@@ -50,8 +50,7 @@ class TossedCase(SceneCase):
         script = SCENE.format(boundary=boundary, pair=pair.format(law=law), movers=movers.format(start=start), law=law,
                               more=more, every=every, columns=columns, run=run, newton=newton)
         log = self.run_lammps(script, np=np, env={"OMP_NUM_THREADS": str(threads)}).log
-        with open(self.path("dump")) as file:
-            frames = file.read()
+        frames = self.read("dump")
         os.remove(self.path("dump"))
         self.assertNotRegex(log, "Dangerous builds = [1-9]")    # a list that came too late voids every promise
         return frames, log

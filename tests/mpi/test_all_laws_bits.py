@@ -9,7 +9,7 @@ as 0."""
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
 HOOKE, HERTZ, FLORES = "hooke 1e4 20.0", "hertz 3e4 50.0", "flores 3e4 2e3"
 COULOMB = "plaincoulomb 2e4 5.0 0.5"
@@ -40,15 +40,7 @@ LAWS = [
     (COULOMB, f"{FLORES_M} {MULTISTEP}", FLORES),
 ]
 
-HEAD = """
-clear
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+HEAD = "\nclear" + head("si")
 PHYSICS = """
 neighbor 0.1 bin
 timestep 5e-4

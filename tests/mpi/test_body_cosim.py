@@ -8,7 +8,7 @@ import struct
 import unittest
 
 from coupled_case import CoupledCase
-from talus_testing import Sphere, begin, head, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, read_dump, write_sphere_data
 
 SCENE = begin(read="{read}", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
@@ -164,8 +164,7 @@ class Cosim(CoupledCase):
 
     def scene(self, name, move, read="read_data grains"):
         text = SCENE.format(read=read, move=move)
-        with open(self.path(name), "w") as file:
-            file.write(text)
+        self.write(name, text)
         return text
 
     def state(self, name):

@@ -16,6 +16,7 @@ import deforming_reference
 import moved_mesh
 from coupled_case import CoupledCase
 from talus_testing import Sphere, begin, read_dump, write_sphere_data
+from vectors import dot
 
 STICKY = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 ROLLING = "hertz/material 1e6 0.7 0.3 tangential mindlin NULL 1.0 0.5 rolling sds 100 1 0.2 twisting sds 50 1 0.1"
@@ -45,10 +46,6 @@ def grains(layers=2, low=0.95, jitter=0.04, side=5):
     draw = random.Random(4)
     return [Sphere(tuple(c + draw.uniform(-jitter, jitter) for c in (i - 0.5 * (side - 1), j - 0.5 * (side - 1), low + 0.99 * k)),
                    diameter=draw.uniform(0.9, 0.98)) for k in range(layers) for j in range(side) for i in range(side)]
-
-
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
 
 
 class MovedMesh(CoupledCase):
@@ -306,8 +303,7 @@ write_dump all custom belt.end id x y z vx vy vz omegax omegay omegaz modify for
         self.assertEqual(len(end.atoms), 27)
         self.assertLess(far, 0.73 * 2.4)
         self.assertGreater(rows[-1]["load"][6], 5)
-        with open(self.path("log.driver")) as file:
-            self.assertIn("particles are inside", file.read())
+        self.assertIn("particles are inside", self.read("log.driver"))
         largest = max(abs(c) for x in rows[-1]["x"] for c in x)
         self.assert_close(largest, 0.73 * 2.4, 1e-9)
         self.assertTrue(os.path.exists(self.path("ball.900.vtp")))

@@ -132,8 +132,7 @@ class Particles(CoupledCase):
         return self.read_json("said")
 
     def log(self):
-        with open(self.path("log.driver")) as file:
-            return file.read()
+        return self.read("log.driver")
 
     def free(self, integrator, thermo=0, friction="tangential multistep NULL NULL 0.5", extra=""):
         return FREE.format(move=INTEGRATORS[integrator][0], thermo=thermo, friction=friction, extra=extra)

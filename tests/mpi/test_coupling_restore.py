@@ -247,8 +247,7 @@ class Restore(CoupledCase):
     def repeated_rows(self, *words):
         """{step: rows of thermo output}, which are the same."""
         self.drive(OUTPUTS, *words)
-        with open(self.path("log.out")) as file:
-            log = file.read()
+        log = self.read("log.out")
         self.assertEqual(log.count("overlap by"), 1, "a warning is not repeated with the steps")
         rows = {}
         for row in thermo(log):

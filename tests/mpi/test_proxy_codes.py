@@ -130,8 +130,7 @@ class ProxyCodes(SceneCase):
         names = []
         for name, script in scenes(ranks).items():
             names.append("in." + name.replace(" ", "_"))
-            with open(self.path(names[-1]), "w") as file:
-                file.write(script)
+            self.write(names[-1], script)
         output = self.run_codes("proxy_state_codes", ranks, names)
         counts = [line.split() for line in output.splitlines() if line.endswith("ghosts")]
         self.assertEqual(len(counts), len(names), output[-3000:])

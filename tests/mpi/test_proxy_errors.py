@@ -107,8 +107,7 @@ class Messages(SceneCase):
         script = SCENE.format(before="", middle="comm_proxy check yes")
         self.run_lammps(script + 'print "END REACHED"\n', np=4, arguments=("-partition", "2x2"))
         for number in "0", "1":
-            with open(self.path("log.script." + number)) as file:
-                self.assertIn("END REACHED", file.read())
+            self.assertIn("END REACHED", self.read("log.script." + number))
 
     def test_errors_in_the_window(self):
         program = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "proxy_error")

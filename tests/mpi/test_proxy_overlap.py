@@ -84,8 +84,7 @@ class Overlap(SceneCase):
         found = {}
         for exchange in exchanges:
             name = exchange.replace(" ", "-")
-            with open(self.path("log." + name)) as file:
-                log = file.read()
+            log = self.read("log." + name)
             builds = int(re.search(r"Neighbor list builds = (\d+)", log).group(1))
             self.assertGreater(builds, 5)
             if "check no" not in log:

@@ -124,14 +124,12 @@ class Stock(SceneCase):
 
     def results(self, name):
         """What the run printed and dumped, as text; how often lists were made."""
-        with open(self.path("log." + name)) as file:
-            log = file.read()
+        log = self.read("log." + name)
         numbers = [line for line in log.splitlines() if re.match(r"[\s\d.e+-]+$", line)]
         dumps = {}
         for file_name in sorted(os.listdir(self.dir)):
             if file_name.startswith(f"dump.{name}."):
-                with open(self.path(file_name)) as file:
-                    dumps[file_name.split(".")[2]] = file.read()
+                dumps[file_name.split(".")[2]] = self.read(file_name)
         builds = [int(n) for n in re.findall(r"Neighbor list builds = (\d+)", log)]
         return numbers, dumps, builds
 

@@ -273,8 +273,7 @@ run 0
             version = int(re.search("define TALUS_SHAPE_VERSION ([0-9]+)", file.read()).group(1))
         makers = {"talus_make_shape": 1, f"talus_make_shape_{version + 1}": version + 1, "make_a_shape": None}
         for name, other in makers.items():
-            with open(self.path("maker.cpp"), "w") as file:
-                file.write(f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
+            self.write("maker.cpp", f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
             self.compile_shape(self.path("maker.cpp"), f"{name}.so")
             message = (f"was built with version {other} of custom_shape.h, this Talus has version {version}: compile "
                        "it anew") if other else f"has no function talus_make_shape_{version}: see custom_shape.h"

@@ -162,8 +162,7 @@ class GivenMasses(BodyCase):
     def test_an_impact_by_hand(self):
         """Without friction and damping, on the sphere at the end of a rod: e = 1, with 1/m = 1/M + a^2/I."""
         mass, moment, arm, v = 2.0, 0.6, 0.4, 1.0
-        with open(self.path("bodies"), "w") as file:
-            file.write(f"1\n1 {mass} 0 0 1 0.7 {moment} 0.6 0 0 0 0 0 {-v} 0 0 0 0 0 0\n")
+        self.write("bodies", f"1\n1 {mass} 0 0 1 0.7 {moment} 0.6 0 0 0 0 0 {-v} 0 0 0 0 0 0\n")
         frame = self.end(spheres_at([(-arm, 0.0, 0.52), (arm, 0.0, 1.48)]), "fix b all large/body plane 0 0 0 0 0 1 contact LAW",
                          move="rigid/small/symplectic molecule start half infile bodies", gravity="", steps=6000, dt=5e-6,
                          law="hooke 2e6 0")

@@ -101,8 +101,7 @@ Diameters
 class ClumpErrors(SceneCase):
 
     def setUp(self):
-        with open(self.path("pebble.mol"), "w") as file:
-            file.write(PEBBLE)
+        self.write("pebble.mol", PEBBLE)
 
     def refuse(self, np, commands, expected, run="run 1", style="sphere", size="0.8", map="map array"):
         log = self.run_lammps(BOX.format(style=style, size=size, map=map) + commands + "\n" + run, np=np,

@@ -7,6 +7,7 @@ import math
 import os
 import unittest
 
+from saved_scenes import CLUMP
 from talus_testing import SceneCase, head, max_difference, read_dump, thermo
 from tossed_clumps import write_clumps
 
@@ -124,8 +125,7 @@ class Clumps(ClumpCase):
                     found = []
                     for style, expect in ("run_style verlet/stock", None), ("run_style verlet", RECORDS):
                         frames = self.simulate(move, np, style=f"{reading}comm_proxy yes\n{style}", expect=expect, **rest)
-                        with open(self.path("said")) as file:
-                            found.append((frames, file.read()))
+                        found.append((frames, self.read("said")))
                     for a, b in zip(found[0][0], found[1][0], strict=True):
                         self.assert_same_bits(a, b)
                     self.assertEqual(found[0][1], found[1][1])
@@ -248,8 +248,7 @@ class ClumpsAndShapes(ClumpCase):
         for frame in frames[1:]:
             self.assert_same_bits(frame, frames[0], MOTION)
         self.assertEqual(len(set(frames[0].column("mol").values())), 23)    # and 0 of the boxes
-        with open(self.path("local.1")) as file:
-            rows = [[float(w) for w in line.split()] for line in file.read().split("c_b[9]")[-1].splitlines() if line.strip()]
+        rows = [[float(w) for w in line.split()] for line in self.read("local.1").split("c_b[9]")[-1].splitlines() if line.strip()]
         self.assertEqual(len(rows), 22)
         for row in rows:    # the mass of three spheres of density 1, by their diameters, and a quaternion
             self.assertAlmostEqual(row[2], math.pi / 6.0 * (1.0 + 0.9**3 + 0.8**3), delta=1e-5)
@@ -316,8 +315,7 @@ write_dump all custom last id {all} modify format float %a sort id
 class OneSphere(SceneCase):
 
     def test_a_clump_of_one_sphere_moves_as_that_sphere(self):
-        with open(self.path("ball.mol"), "w") as file:
-            file.write("ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 1.0\n\nMasses\n\n1 0.7\n")
+        self.write("ball.mol", "ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 1.0\n\nMasses\n\n1 0.7\n")
         frames = []
         for move, rigid in (("rigid/small/symplectic molecule mol ball start half gravity 10 vector 0 0 -1", "rigid move"),
                             ("nve/sphere/symplectic start half gravity 10 vector 0 0 -1", "")):
@@ -351,34 +349,6 @@ run 1800
 {more}
 write_dump all custom last id mol mass {all} modify format float %a sort id
 """
-MOLECULE = """three spheres
-
-3 atoms
-{more}
-Coords
-
-1 0.0 0.0 0.0
-2 0.8 0.1 0.0
-3 0.3 0.7 0.2
-
-Types
-
-1 1
-2 1
-3 1
-
-Diameters
-
-1 1.0
-2 0.9
-3 0.8
-
-Masses
-
-1 0.6
-2 0.4
-3 0.3
-"""
 GIVEN = "1.1 mass\n0.3 0.25 0.05 com\n0.2 0.22 0.3 0.01 0.0 0.02 inertia\n"
 
 
@@ -386,8 +356,7 @@ class PouredClumps(SceneCase):
 
     def pour(self, style, suffix, np=1, more="", given="", before="",
              insert="fix pour all pour 12 0 4711 vol 0.3 50 region slab mol clump rigid move"):
-        with open(self.path("clump.mol"), "w") as file:
-            file.write(MOLECULE.format(more=given))
+        self.write("clump.mol", CLUMP.replace("3 atoms\n", f"3 atoms\n{given}"))
         self.log = self.run_lammps(POUR.format(style=style, suffix=suffix, more=more, before=before, insert=insert, all=" ".join(ALL)), np=np).log
         frame, = read_dump(self.path("last"))
         return frame

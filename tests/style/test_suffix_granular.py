@@ -595,8 +595,7 @@ dump_modify pairs format float %.17g
             for style in "run_style verlet/stock\n", "run_style verlet\n":
                 text = self.heated(words, more=wall + each + "comm_proxy yes\n" + style, run="run 200", every=50)
                 log = self.run_suffix(True, "ours", text, np=np).log
-                with open(self.path("ours/means")) as file:
-                    found.append((read_dump(self.path("ours/heat")) + read_dump(self.path("ours/state")), file.read()))
+                found.append((read_dump(self.path("ours/heat")) + read_dump(self.path("ours/state")), self.read("ours/means")))
             self.assertRegex(log, "steps without output +in the records")
             for a, b in zip(found[0][0], found[1][0], strict=True):
                 self.assert_same_bits(a, b)

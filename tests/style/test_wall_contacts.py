@@ -74,8 +74,7 @@ class WallContacts(SceneCase):
         """Of the last step: rows, those of thermo, the grid."""
         key = lambda row: (row["id1"], row["id2"], row["body"], row["nx"], row["ny"])
         rows = [[row[word] for word in WORDS if word != "part"] for row in sorted(self.rows[-1], key=key)]
-        with open(self.path("field")) as file:
-            text = file.read().rsplit("ITEM: GRID CELLS", 1)[1].splitlines()[1:]
+        text = self.read("field").rsplit("ITEM: GRID CELLS", 1)[1].splitlines()[1:]
         grid = [[float(word) for word in line.split()] for line in text]
         return rows, [list(row.values()) for row in self.table], grid
 
