@@ -83,7 +83,7 @@ class BodyContactsTest : public testing::TestWithParam<int> {
 
   bool touches(int i, SurfaceContact &surface) const
   {
-    return shape->touches({p.x[i][0], p.x[i][1], p.x[i][2]}, p.radius[i], surface);
+    return shape->touches(talus(p.x[i]), p.radius[i], surface);
   }
 
   RandomSource random{21};
@@ -117,8 +117,7 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowReferenceAndBalances)
         reference::Contact c = contact_of(i, surface);
         c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
-        const Vector3<double> &n = surface.normal;
-        expected = evaluate(c, {n.x, n.y, n.z}, displacement[i], laws.law(row),
+        expected = evaluate(c, plain(surface.normal), displacement[i], laws.law(row),
                             laws.coefficients(row), dt, advance);
         touching++;
       }

@@ -13,20 +13,9 @@
 #include <memory>
 
 using namespace Talus;
-using slow::axpy;
-using slow::norm;
-using slow::Vector;
+using slow::axpy, slow::norm, slow::plain, slow::talus, slow::Vector;
 
 namespace {
-
-Vector3<double> talus(const Vector &a)
-{
-  return {a[0], a[1], a[2]};
-}
-Vector plain(const Vector3<double> &a)
-{
-  return {a.x, a.y, a.z};
-}
 
 /// A shape together with the axes it was made from: points are given in these (first, second,
 /// normal).

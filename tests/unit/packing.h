@@ -25,6 +25,12 @@ using reference::infinity;
 using reference::inner;
 using reference::norm;
 using reference::outer;
+using reference::plain;
+
+inline Talus::Vector3<double> talus(const Vector &a)
+{
+  return {a[0], a[1], a[2]};
+}
 
 /// s a + b
 inline Vector axpy(double s, const Vector &a, const Vector &b)
