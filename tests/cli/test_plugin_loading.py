@@ -10,7 +10,6 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import *
 
 BUILD = os.environ["TALUS_BINARY_DIR"]

@@ -1,11 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """What the tests of the inputs of LAMMPS read and write themselves: scripts with shorter runs, tables of a log."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import stock_inputs
 
 LOG = """Setting up Verlet run ...

@@ -6,10 +6,8 @@ the hosts are stubs that write down how they are called."""
 import os
 import re
 import shutil
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from test_build_errors import ROOT, ScriptCase, write
 
 SECOND = "4Jul2026"

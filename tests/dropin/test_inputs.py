@@ -3,11 +3,8 @@
 """The input scripts for grains that LAMMPS comes with, by plain LAMMPS and with -sf talus, on 1 and 2 ranks: same
 numbers, and the log says what is accelerated. Runs are shortened, and a dump is added; nothing else is edited."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from input_comparison import tests_of
 
 Inputs = tests_of("short")

@@ -5,25 +5,7 @@ NULL NULL mu slider limit_damping`, gravity acts along -z."""
 
 import math
 
-
-def add(a, b, factor=1.0):
-    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
-
-
-def times(factor, a):
-    return factor * a[0], factor * a[1], factor * a[2]
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def length(a):
-    return math.sqrt(dot(a, a))
+from vectors import cross, dot, length, plus, times
 
 
 def run(sphere, surface, time, steps, kn, gn, mu, gravity=10.0):
@@ -44,26 +26,26 @@ def run(sphere, surface, time, steps, kn, gn, mu, gravity=10.0):
         if overlap > 0.0:
             contact = math.sqrt(radius * overlap)
             kt, gt = 2.0 / 7.0 * kn * contact, 0.5 * gn * mass * contact
-            seen, spin = add(v, of_body, -1.0), add(w, turn, -1.0)
+            seen, spin = plus(v, of_body, -1.0), plus(w, turn, -1.0)
             normal_speed = dot(seen, n)
-            slip = add(add(seen, n, -normal_speed), cross(times(radius, spin), n), -1.0)
+            slip = plus(plus(seen, n, -normal_speed), cross(times(radius, spin), n), -1.0)
             pressed = max(contact * (kn * overlap - gn * mass * normal_speed), 0.0)
-            before = add(d, cross(turn, d), dt) if d else (0.0, 0.0, 0.0)
-            flat = add(before, n, -dot(before, n))
+            before = plus(d, cross(turn, d), dt) if d else (0.0, 0.0, 0.0)
+            flat = plus(before, n, -dot(before, n))
             before = times(length(before) / length(flat), flat) if length(flat) > 0.0 else flat
-            d = add(before, slip, dt)
-            drag = add(times(kt, d), slip, gt)
+            d = plus(before, slip, dt)
+            drag = plus(times(kt, d), slip, gt)
             limit = mu * pressed
             if length(drag) > limit:    # gt/kt d' + d = limit/kt along the force
                 drag = times(limit / length(drag), drag)
-                d = times(kt / (gt + kt * dt), add(times(gt / kt, before), drag, dt / kt))
-            force = add(add(force, n, pressed), drag, -1.0)
+                d = times(kt / (gt + kt * dt), plus(times(gt / kt, before), drag, dt / kt))
+            force = plus(plus(force, n, pressed), drag, -1.0)
             torque = times(radius, cross(n, drag))
         else:
             d = None
-        v = add(v, force, dt / mass)
-        w = add(w, torque, dt / inertia)
-        x = add(x, v, dt)
+        v = plus(v, force, dt / mass)
+        w = plus(w, torque, dt / inertia)
+        x = plus(x, v, dt)
     return x + v + times(radius, w)
 
 

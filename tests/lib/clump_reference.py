@@ -5,7 +5,7 @@ law is `hertz kn gn tangential multistep NULL NULL mu slider limit_damping`; the
 
 import math
 
-from body_reference import add, cross, dot, length, times
+from vectors import cross, dot, length, plus, times
 
 
 class Clump:
@@ -16,10 +16,10 @@ class Clump:
         self.mass = sum(masses)
         self.x = self.v = (0.0, 0.0, 0.0)
         for m, s in zip(masses, spheres):
-            self.x = add(self.x, s.x, m / self.mass)
-            self.v = add(self.v, s.v, m / self.mass)
+            self.x = plus(self.x, s.x, m / self.mass)
+            self.v = plus(self.v, s.v, m / self.mass)
         self.radii = [0.5 * s.diameter for s in spheres]
-        self.arms = [add(s.x, self.x, -1.0) for s in spheres]    # at the beginning
+        self.arms = [plus(s.x, self.x, -1.0) for s in spheres]    # at the beginning
         self.inertia = [[0.0] * 3 for _ in "xyz"]    # the same
         for m, r, d in zip(masses, self.radii, self.arms):
             for i in range(3):
@@ -34,20 +34,20 @@ class Clump:
         back = list(zip(*self.turn))
         self.w = apply(self.turn, apply(self.inverse, apply(back, self.l)))
         self.now = [apply(self.turn, d) for d in self.arms]
-        self.places = [add(self.x, d) for d in self.now]
-        self.speeds = [add(self.v, cross(self.w, d)) for d in self.now]
+        self.places = [plus(self.x, d) for d in self.now]
+        self.speeds = [plus(self.v, cross(self.w, d)) for d in self.now]
 
     def step(self, force, torque, dt):
-        self.v = add(self.v, force, dt / self.mass)
-        self.l = add(self.l, torque, dt)
-        self.x = add(self.x, self.v, dt)
+        self.v = plus(self.v, force, dt / self.mass)
+        self.l = plus(self.l, torque, dt)
+        self.x = plus(self.x, self.v, dt)
         self.update()
         angle = dt * length(self.w)
         if angle > 0.0:    # exp(angle n x) by Rodrigues
             n = times(1.0 / length(self.w), self.w)
             s, c = math.sin(angle), 1.0 - math.cos(angle)
             self.turn = [list(column) for column in zip(*[
-                add(add(e, cross(n, e), s), add(times(dot(n, e), n), e, -1.0), c) for e in zip(*self.turn)])]
+                plus(plus(e, cross(n, e), s), plus(times(dot(n, e), n), e, -1.0), c) for e in zip(*self.turn)])]
         self.update()
 
 
@@ -76,19 +76,19 @@ class Law:
         contact = math.sqrt(radius * overlap)
         kt, gt = 2.0 / 7.0 * self.kn * contact, 0.5 * self.gn * mass * contact
         normal_speed = dot(seen, n)
-        slip = add(add(seen, n, -normal_speed), cross(rotation, n), -1.0)
+        slip = plus(plus(seen, n, -normal_speed), cross(rotation, n), -1.0)
         pressed = max(contact * (self.kn * overlap - self.gn * mass * normal_speed), 0.0)
         before = self.memory.get(key, (0.0, 0.0, 0.0))
-        flat = add(before, n, -dot(before, n))
+        flat = plus(before, n, -dot(before, n))
         before = times(length(before) / length(flat), flat) if length(flat) > 0.0 else flat
-        d = add(before, slip, dt)
-        drag = add(times(kt, d), slip, gt)
+        d = plus(before, slip, dt)
+        drag = plus(times(kt, d), slip, gt)
         limit = self.mu * pressed
         if length(drag) > limit:    # gt/kt d' + d = limit/kt along the force
             drag = times(limit / length(drag), drag)
-            d = times(kt / (gt + kt * dt), add(times(gt / kt, before), drag, dt / kt))
+            d = times(kt / (gt + kt * dt), plus(times(gt / kt, before), drag, dt / kt))
         self.memory[key] = d
-        return add(times(pressed, n), drag, -1.0), drag
+        return plus(times(pressed, n), drag, -1.0), drag
 
 
 def run(groups, floor, time, steps, gravity, **law):
@@ -101,8 +101,8 @@ def run(groups, floor, time, steps, gravity, **law):
         torque = [(0.0, 0.0, 0.0)] * len(clumps)
 
         def add_to(m, f, arm, moment):
-            force[m] = add(force[m], f)
-            torque[m] = add(add(torque[m], cross(arm, f)), moment)
+            force[m] = plus(force[m], f)
+            torque[m] = plus(plus(torque[m], cross(arm, f)), moment)
         for a, one in enumerate(clumps):
             for i, (r, x, v) in enumerate(zip(one.radii, one.places, one.speeds)):
                 if floor:
@@ -112,14 +112,14 @@ def run(groups, floor, time, steps, gravity, **law):
                 for b in range(a):
                     other = clumps[b]
                     for j, (rj, y, u) in enumerate(zip(other.radii, other.places, other.speeds)):
-                        away = add(x, y, -1.0)
+                        away = plus(x, y, -1.0)
                         far = length(away)
                         if far > r + rj and (a, i, b, j) not in law.memory:
                             continue
                         n = times(1.0 / far, away)
                         found = law.force((a, i, b, j), n, r + rj - far, r * rj / (r + rj),
-                                          one.mass * other.mass / (one.mass + other.mass), add(v, u, -1.0),
-                                          add(times(r, one.w), times(rj, other.w)), dt)
+                                          one.mass * other.mass / (one.mass + other.mass), plus(v, u, -1.0),
+                                          plus(times(r, one.w), times(rj, other.w)), dt)
                         if found:
                             f, drag = found
                             add_to(a, f, one.now[i], times(r, cross(n, drag)))
@@ -132,4 +132,4 @@ def run(groups, floor, time, steps, gravity, **law):
 def limit(groups, floor, time, steps, **rest):
     """What run() tends to, by its error of first order."""
     coarse, fine = (run(groups, floor, time, n, **rest) for n in (steps, 2 * steps))
-    return [add(times(2.0, b), a, -1.0) for a, b in zip(coarse, fine)]
+    return [plus(times(2.0, b), a, -1.0) for a, b in zip(coarse, fine)]

@@ -22,14 +22,8 @@ def host_environment(**more):
 
 class CoupledCase(SceneCase):
 
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return name
-
     def read_json(self, name):
-        with open(self.path(name)) as file:
-            return json.load(file)
+        return json.loads(self.read(name))
 
     def launch(self, command, np=1, env=None, **options):
         """What it prints."""

@@ -5,28 +5,14 @@ each touches the nearest point of the mesh, and steps are of first order (v, the
 
 import math
 
-
-def sub(a, b):
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def add(a, b, f=1.0):
-    return (a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2])
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+from vectors import cross, dot, minus, plus
 
 
 def nearest(p, a, b, c):
     """Barycentric shares of the point of a triangle that is nearest to p, by trying face, edges and corners."""
-    e, f = sub(b, a), sub(c, a)
+    e, f = minus(b, a), minus(c, a)
     ee, ef, ff = dot(e, e), dot(e, f), dot(f, f)
-    d = sub(p, a)
+    d = minus(p, a)
     s, t = dot(d, e), dot(d, f)
     det = ee * ff - ef * ef
     u, v = (ff * s - ef * t) / det, (ee * t - ef * s) / det
@@ -35,11 +21,11 @@ def nearest(p, a, b, c):
     best = None
     for i, j in ((0, 1), (1, 2), (2, 0)):
         corner = (a, b, c)
-        along = sub(corner[j], corner[i])
-        w = min(max(dot(sub(p, corner[i]), along) / dot(along, along), 0.0), 1.0)
+        along = minus(corner[j], corner[i])
+        w = min(max(dot(minus(p, corner[i]), along) / dot(along, along), 0.0), 1.0)
         shares = [0.0, 0.0, 0.0]
         shares[i], shares[j] = 1.0 - w, w
-        away = sub(p, add(corner[i], along, w))
+        away = minus(p, plus(corner[i], along, w))
         if best is None or dot(away, away) < best[0]:
             best = (dot(away, away), tuple(shares))
     return best[1]
@@ -50,22 +36,22 @@ def turning(x, v):
     h = 1e-6
 
     def axes(time):
-        p = [add(x[k], v[k], time) for k in range(3)]
-        n = cross(sub(p[1], p[0]), sub(p[2], p[0]))
+        p = [plus(x[k], v[k], time) for k in range(3)]
+        n = cross(minus(p[1], p[0]), minus(p[2], p[0]))
         return tuple(q / math.sqrt(dot(n, n)) for q in n), p
     (before, _), (now, _), (after, _) = axes(-h), axes(0.0), axes(h)
     tilt = cross(now, tuple((q - p) / (2.0 * h) for p, q in zip(before, after)))
     # half the curl in the plane: of the gradient that takes edges to differences of velocities
-    e, f = sub(x[1], x[0]), sub(x[2], x[0])
+    e, f = minus(x[1], x[0]), minus(x[2], x[0])
     size = math.sqrt(dot(e, e))
     i = tuple(q / size for q in e)
     j = cross(now, i)
     a, b, c, d = dot(e, i), dot(f, i), dot(e, j), dot(f, j)
     det = a * d - b * c
-    p, q = sub(v[1], v[0]), sub(v[2], v[0])
+    p, q = minus(v[1], v[0]), minus(v[2], v[0])
     by_i = tuple((d * p[k] - c * q[k]) / det for k in range(3))
     by_j = tuple((a * q[k] - b * p[k]) / det for k in range(3))
-    return add(tilt, now, 0.5 * (dot(by_i, j) - dot(by_j, i)))
+    return plus(tilt, now, 0.5 * (dot(by_i, j) - dot(by_j, i)))
 
 
 def run(spheres, triangles, vertex, steps, dt, kn, gn, gt, mu, gravity):
@@ -82,7 +68,7 @@ def run(spheres, triangles, vertex, steps, dt, kn, gn, gt, mu, gravity):
                     continue
                 shares = nearest(x, *corner)
                 point = tuple(sum(shares[n] * corner[n][k] for n in range(3)) for k in range(3))
-                away = sub(x, point)
+                away = minus(x, point)
                 gap = math.sqrt(dot(away, away))
                 if found is None or gap < found[0] - 1e-12:
                     found = (gap, point, away, shares, t)
@@ -92,16 +78,16 @@ def run(spheres, triangles, vertex, steps, dt, kn, gn, gt, mu, gravity):
                 n = tuple(a / gap for a in away)
                 omega = turning([p for p, _ in t], [u for _, u in t])
                 surface = tuple(sum(shares[m] * t[m][1][k] for m in range(3)) for k in range(3))
-                seen = sub(v, add(surface, cross(omega, away)))
-                spin = sub(w, omega)
+                seen = minus(v, plus(surface, cross(omega, away)))
+                spin = minus(w, omega)
                 speed = dot(seen, n)
-                slip = sub(add(seen, n, -speed), cross(tuple(radius * q for q in spin), n))
+                slip = minus(plus(seen, n, -speed), cross(tuple(radius * q for q in spin), n))
                 pressed = kn * (radius - gap) - mass * gn * speed
                 drag = tuple(-mass * gt * q for q in slip)
                 size, limit = math.sqrt(dot(drag, drag)), mu * abs(pressed)
                 if size > limit:
                     drag = tuple(limit / size * q for q in drag)
-                force = add(add(force, n, pressed), drag)
+                force = plus(plus(force, n, pressed), drag)
                 torque = tuple(-radius * q for q in cross(n, drag))
             for k in range(3):
                 v[k] += dt * force[k] / mass

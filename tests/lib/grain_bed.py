@@ -23,7 +23,6 @@ group base type 2
 group grains type 1
 {pair}
 neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix gravity all gravity 2.0 vector {gravity} -1
 thermo 100

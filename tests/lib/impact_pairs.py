@@ -56,10 +56,9 @@ def integrated(ratio, poisson, steps=20000):
     return patch, -2.5 * impulse
 
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 timestep {dt}
 thermo {steps}

@@ -39,11 +39,10 @@ RECOIL_6 = [
     (2.75, 1.27), (3.73, 3.24), (5.68, 7.13), (6.11, 7.98)]
 SPINS_6 = [.175, .2, .3, .5, .7, .9, 1.3, 2, 3, 4, 5, 7, 9, 12, 22]
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 {body}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 timestep {dt}
 thermo {steps}

@@ -5,17 +5,7 @@ friction cdt, fix heat/gran/conduction), and impacts with them: an independent r
 import dataclasses
 import math
 
-
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def plus(a, b, factor=1.0):
-    return tuple(p + factor * q for p, q in zip(a, b))
+from vectors import cross, dot, plus
 
 
 @dataclasses.dataclass

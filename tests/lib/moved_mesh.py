@@ -8,17 +8,14 @@ import json
 import math
 import sys
 
+from vectors import cross, dot
+
 
 def turned(axis, angle, x):
     """x turned about the axis (unit vector) through the origin."""
     c, s = math.cos(angle), math.sin(angle)
-    along = sum(p * q for p, q in zip(axis, x))
-    across = (axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2], axis[0] * x[1] - axis[1] * x[0])
+    along, across = dot(axis, x), cross(axis, x)
     return [c * x[k] + s * across[k] + (1.0 - c) * along * axis[k] for k in range(3)]
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 class Rigid:

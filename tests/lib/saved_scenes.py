@@ -4,7 +4,7 @@
 import dataclasses
 
 import body_meshes
-from talus_testing import Sphere, write_sphere_data
+from talus_testing import head, write_sphere_data
 from tossed_clumps import write_clumps
 from tossed_grains import LAW, tossed_grains
 
@@ -31,18 +31,10 @@ def tossed(path, layers=3, types=1):
     write_sphere_data(path, ((0, 9.5), (0, 7.2), (-0.5, 6.5)), grains, types=max(types, 1))
 
 
-def head(boundary="f f f", read="read_data grains", style="sphere", more=""):
-    return f"""
-units lj
-boundary {boundary}
-atom_style {style}
-atom_modify map yes
-newton off
-comm_modify vel yes
-{more}
+def start(boundary="f f f", read="read_data grains", style="sphere", more=""):
+    return head(boundary=boundary, style=style) + f"""{more}
 {read}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 thermo 100000
 thermo_style custom step atoms
@@ -115,7 +107,7 @@ def with_stirrer(path, types=1):
 
 def clumps(move, floor, law, words=(), vectors=()):
     read = f"{MEMBERS}\nread_data grains fix prop NULL Molecules"
-    return Scene(head("p p f", read).replace("neighbor 0.1", "neighbor 0.2").replace("0.001", "0.0005") + law +
+    return Scene(start("p p f", read).replace("neighbor 0.1", "neighbor 0.2").replace("0.001", "0.0005") + law +
                  CLUMPS.format(move=move, floor=floor), words=words, write=clumps_of, vectors=vectors)
 
 
@@ -147,13 +139,7 @@ Masses
 2 0.4
 3 0.3
 """
-POURED = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+POURED = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 14
 create_box 1 box
@@ -181,20 +167,20 @@ def clump_file(path):
 
 SUFFIX = ("-sf", "talus")
 SCENES = {
-    "spheres": Scene(head() + pair() + MOVE + walls(), write=tossed),
-    "periodic": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n",
+    "spheres": Scene(start() + pair() + MOVE + walls(), write=tossed),
+    "periodic": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n",
                       write=tossed),
-    "energies": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
+    "energies": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                       "compute work all penalty/stats\ncompute lost all dissipation/gran/atom\n"
                       "thermo_style custom step pe ke c_work[1] c_work[2] c_work[3] c_work[4] c_work[5] c_work[6]\nthermo 37\n",
                       columns="c_lost[1] c_lost[2]", write=tossed),
-    "second order": Scene(head("p p f") + pair(SECOND) + MOVE.replace("gravity", "order 2 gravity") +
+    "second order": Scene(start("p p f") + pair(SECOND) + MOVE.replace("gravity", "order 2 gravity") +
                           f"fix floor all large/body plane 0 0 0 0 0 1 contact {SECOND}\n", write=tossed),
-    "cohesion": Scene(head("p p f") + "pair_style granular\npair_coeff * * jkr 4000 0.6 0.3 20 tangential "
+    "cohesion": Scene(start("p p f") + "pair_style granular\npair_coeff * * jkr 4000 0.6 0.3 20 tangential "
                       f"linear_history 2000 1.0 0.5\nfix step all nve/sphere\nfix g all gravity 10 vector 0.3 0 -1\n"
                       f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", words=SUFFIX, write=tossed),
-    "walls of the host": Scene(head() + WALL_SCENE, words=SUFFIX, write=tossed),
-    "bodies": Scene(head() + pair() + MOVE + walls() + BODIES, write=with_stirrer,
+    "walls of the host": Scene(start() + WALL_SCENE, words=SUFFIX, write=tossed),
+    "bodies": Scene(start() + pair() + MOVE + walls() + BODIES, write=with_stirrer,
                     vectors=(("lid", 20), ("block", 20), ("stirrer", 20), ("ram", 20), ("guided", 20))),
     "clumps": clumps("fix move clumps rigid/small/symplectic molecule start half gravity 10 vector 0.2 0 -1\n"
                      "fix move2 single nve/sphere/symplectic start half gravity 10 vector 0.2 0 -1",
@@ -205,36 +191,36 @@ SCENES = {
                                  "fix floor all wall/gran hertz/history 20000 NULL 50 NULL 0.5 1 zplane 0 9",
                                  "pair_style gran/hertz/history 20000 NULL 50 NULL 0.5 1\npair_coeff * *\n", words=SUFFIX),
     "clumps that come": Scene(POURED, words=SUFFIX, write=clump_file),
-    "poured by the host": Scene(head("p p f", read="region box block 0 9 0 7 0 12\ncreate_box 1 box") +
+    "poured by the host": Scene(start("p p f", read="region box block 0 9 0 7 0 12\ncreate_box 1 box") +
                                 "pair_style gran/hooke/history 4000 NULL 20 NULL 0.5 0\npair_coeff * *\n"
                                 "fix step all nve/sphere\nfix g all gravity 10 vector 0 0 -1\nregion slab block 1 8 1 6 6 11\n"
                                 "fix in all pour 150 1 4767 region slab diam range 0.7 1.1 dens 1 1 vol 0.2 30\n"
                                 f"fix floor all wall/gran {HISTORY} zplane 0 NULL\n", words=SUFFIX, write=lambda path: None),
-    "shapes": Scene(head("p f f") + pair() + SHAPES + "region top block 1 8 1 6 5 6.3\n"
+    "shapes": Scene(start("p f f") + pair() + SHAPES + "region top block 1 8 1 6 5 6.3\n"
                     "fix more all deposit 20 2 40 77 region top near 1.0 vz -2 -2\n",
                     columns="f_shapes[1] f_shapes[2] f_shapes[3] f_shapes[4]",
                     write=lambda path: with_stirrer(path, types=3)),
-    "poured": Scene(head("p p f").replace("neighbor", "group stream empty\nregion top block 1 8 1 6 5 6.3\nneighbor", 1) +
+    "poured": Scene(start("p p f").replace("neighbor", "group stream empty\nregion top block 1 8 1 6 5 6.3\nneighbor", 1) +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                     "fix in stream pour/rate 40 1 top 60.0 diameter uniform 0.5 0.8 density 1.9 seed 77 velocity 0.1 0 -2\n",
                     vectors=(("in", 3),), write=tossed),
-    "deposited and lost": Scene(head() + pair() + MOVE +
+    "deposited and lost": Scene(start() + pair() + MOVE +
                                 f"fix floor all large/body rectangle 4 3 0 0 0 1 1 0 0 7 9 contact {LAW}\n"
                                 "region top block 1 8 1 6 5 6.3\nfix more all deposit 400 1 25 77 region top near 1.0 vz -2 -2\n",
                                 write=tossed),
-    "moved by the host": Scene(head() + pair() + "group base id <= 40\ngroup loose subtract all base\n" +
+    "moved by the host": Scene(start() + pair() + "group base id <= 40\ngroup loose subtract all base\n" +
                                MOVE.replace("all", "loose") + "fix base base move wiggle 0 0.3 0.2 0.25\n"
                                "fix air loose viscous 0.3\n" + walls(), write=tossed),
-    "heat": Scene(head("p p f", read="fix heat all property/atom temperature heatflow ghost yes\nread_data grains\nset group all temperature 1\nset atom 1*50 temperature 3") +
+    "heat": Scene(start("p p f", read="fix heat all property/atom temperature heatflow ghost yes\nread_data grains\nset group all temperature 1\nset atom 1*50 temperature 3") +
                   f"pair_style {HEAT}\nfix step all nve/sphere\nfix heat2 all heat/flow constant 2.0\ncompute t all property/atom temperature heatflow\n"
                   "fix g all gravity 10 vector 0.3 0 -1\n"
                   "fix floor all wall/gran granular hertz 4000 40 tangential linear_history 2000 1.0 0.5 heat area 0.5 "
                   "zplane 0 NULL temperature 2\n", columns="c_t[1] c_t[2]", words=SUFFIX, write=tossed),
-    "balanced": Scene(head(more="comm_style tiled") + pair() + MOVE + walls() + "fix even all balance 50 1.0 rcb\n", write=tossed),
-    "tilted": Scene(head("p p f", read="read_data grains\nchange_box all triclinic\nchange_box all xy final 1.5 remap units box") +
+    "balanced": Scene(start(more="comm_style tiled") + pair() + MOVE + walls() + "fix even all balance 50 1.0 rcb\n", write=tossed),
+    "tilted": Scene(start("p p f", read="read_data grains\nchange_box all triclinic\nchange_box all xy final 1.5 remap units box") +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", write=tossed),
-    "deformed": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
+    "deformed": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                       "fix press all deform 1 x erate -0.1 remap x\n", write=tossed, later=(5, 895)),
-    "steps of the host": Scene(head("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
+    "steps of the host": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                                "comm_proxy no\nrun_style verlet/stock\n", write=tossed),
 }

@@ -3,23 +3,15 @@
 
 import random
 
-from talus_testing import Sphere
+from talus_testing import Sphere, head
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 BOX = (-1, 12), (-1, 10), (-1, 12)
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+START = head()
 PAIR = f"pair_style gran/penalty\npair_coeff * * {LAW}\n"
 # {ylo}: the body behind
 PHYSICS = f"""
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 4.0 vector 0.3 0.1 -1
 fix floor all large/body plane 0 0 0  0 0 1  contact {LAW}

@@ -1,12 +1,9 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Helpers for tests that run LAMMPS with the Talus plugin.
 
-A test script starts with
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-    from talus_testing import *
-derives its cases from SceneCase and ends with unittest.main().  ctest provides TALUS_LMP,
-TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMMPS_PLUGIN_PATH.  Without a host or a plugin
-a script fails at import: it never skips.
+A test script derives its cases from SceneCase and ends with unittest.main().  ctest provides this folder
+in PYTHONPATH, TALUS_LMP, TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMMPS_PLUGIN_PATH.  Without
+a host or a plugin a script fails at import: it never skips.
 """
 
 import collections
@@ -24,8 +21,10 @@ import tempfile
 import time
 import unittest
 
-__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "marked_word", "max_difference",
-           "part_of", "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
+from granular_script import begin, head
+
+__all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "begin", "head", "marked_word", "max_difference", "part_of",
+           "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
            "write_sphere_data"]
 
 DEFAULT_TIMEOUT = 120.0    # seconds; a hang is a failure
@@ -252,6 +251,15 @@ class SceneCase(unittest.TestCase):
 
     def path(self, name):
         return os.path.join(self.dir, name)
+
+    def read(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return name
 
     def run_lammps(self, script_text, **options):
         return run_lammps(script_text, **{"cwd": self.dir, **options})

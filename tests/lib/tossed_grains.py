@@ -4,20 +4,13 @@
 import os
 import random
 
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, write_sphere_data
 
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton {newton}
-comm_modify vel yes
+SCENE = head(boundary="{boundary}", newton="{newton}") + """
 read_data grains
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 {movers}
 fix floor all large/body plane 0 0 0  0 0 1  contact {law}
@@ -57,8 +50,7 @@ class TossedCase(SceneCase):
         script = SCENE.format(boundary=boundary, pair=pair.format(law=law), movers=movers.format(start=start), law=law,
                               more=more, every=every, columns=columns, run=run, newton=newton)
         log = self.run_lammps(script, np=np, env={"OMP_NUM_THREADS": str(threads)}).log
-        with open(self.path("dump")) as file:
-            frames = file.read()
+        frames = self.read("dump")
         os.remove(self.path("dump"))
         self.assertNotRegex(log, "Dangerous builds = [1-9]")    # a list that came too late voids every promise
         return frames, log

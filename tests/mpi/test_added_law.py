@@ -7,24 +7,15 @@ import math
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 PLUGIN = os.path.join(os.environ["TALUS_BINARY_DIR"], "added")
 WITH_LAW = {"LAMMPS_PLUGIN_PATH": PLUGIN}
 STIFFNESS, SPEED = 2e4, 0.5
 
-HEAD = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+HEAD = head("si")
 COLUMNS = "x y z vx vy vz omegax omegay omegaz fx fy fz".split()
 BED = """
 pair_style gran/penalty

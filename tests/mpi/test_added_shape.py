@@ -7,13 +7,10 @@ inertia, contacts with itself, spheres, convex particles, planes, boxes and mesh
 import math
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 from vtk_files import read_part, read_series
 
 WITH_SHAPE = {"LAMMPS_PLUGIN_PATH": os.path.join(os.environ["TALUS_BINARY_DIR"], "added")}
@@ -25,10 +22,7 @@ ACROSS = OF_CYLINDER * (LENGTH ** 2 / 12 + RADIUS ** 2 / 4) \
     + OF_BALL * (0.4 * RADIUS ** 2 + LENGTH ** 2 / 4 + 0.375 * LENGTH * RADIUS)
 ALONG = OF_CYLINDER * RADIUS ** 2 / 2 + OF_BALL * 0.4 * RADIUS ** 2
 
-HEAD = begin("lj", data="{data}").replace("read_data {data}", "{read}") + """
-pair_coeff * * {law}
-neighbor 0.2 bin
-timestep {dt}
+HEAD = begin(read="{read}", law="{law}", skin=0.2, dt="{dt}") + """
 """
 COLUMNS = "x y z vx vy vz omegax omegay omegaz f_s[1] f_s[2] f_s[3] f_s[4]".split()
 END = f"\nwrite_dump all custom end id radius mass {' '.join(COLUMNS)} modify format float %a"

@@ -9,11 +9,9 @@ import math
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import (SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo,
+from talus_testing import (SceneCase, Sphere, head, max_difference, part_of, read_dump, read_local, thermo,
                            write_sphere_data)
 
 RANKS = 1, 2, 4
@@ -58,17 +56,10 @@ MINDLIN = ("pair_style granular\npair_coeff * * hertz/material 2e4 1.0 0.3 tange
            "damping coeff_restitution", "pair_style gran/penalty\npair_coeff * * hertz/material 2e4 1.0 0.3 "
            "tangential multistep NULL 0.0 0.5")
 
-SCRIPT = """
-units lj
-boundary p p p
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head(boundary="p p p") + """
 read_data {data}
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere
 compute stress all stress/atom NULL

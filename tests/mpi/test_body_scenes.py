@@ -10,7 +10,6 @@ import shutil
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, host_environment
 from talus_testing import SceneCase, run_program
 
@@ -22,8 +21,7 @@ class Scenes(SceneCase):
 
     def simulate(self, name, np=2, way="in the records", **variables):
         """{words: number} of the lines behind the title of the summary."""
-        with open(self.path(f"input/in.{name}")) as file:
-            script = file.read()
+        script = self.read(f"input/in.{name}")
         log = self.run_lammps(script, np=np, cwd=self.path("input"), variables={"out": self.dir, **variables}).log
         lines = re.findall(r"^([a-zA-Z /-]+?) {2,}(-?[\d.]\S*)", log.rsplit("\n--- ", 1)[1], re.MULTILINE)
         self.assertEqual(re.findall("WARNING.*", log), [])
@@ -98,8 +96,7 @@ class Scenes(SceneCase):
         for np in (1, 2):
             done = run_program(sys.executable, np, [os.path.join(SOURCE, "examples/cosim/wheel.py"), "--quick", "--out", self.dir],
                                env=host_environment(), timeout=240)
-            with open(self.path("wheel.csv")) as file:
-                rows.append(file.read())
+            rows.append(self.read("wheel.csv"))
         print(done.output.strip())
         self.assertEqual(rows[0], rows[1], "the same bits on 1 and 2 ranks")
         with open(self.path("log.wheel")) as log:
@@ -111,8 +108,7 @@ class Scenes(SceneCase):
         self.assertLess(sinkage, 0.015)
         self.assertAlmostEqual(lift, 0.4, delta=0.15)    # carries its load
         self.assertGreater(torque, 0.0, "slip takes torque")
-        with open(self.path("wheel.svg")) as file:
-            self.assertIn("drawbar pull", file.read())
+        self.assertIn("drawbar pull", self.read("wheel.svg"))
 
 
 if __name__ == "__main__":

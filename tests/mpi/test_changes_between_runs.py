@@ -4,21 +4,12 @@
 with the right numbers, or ends in one error that says to leave it out, on any number of ranks; and another set-up always
 goes on."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import max_difference, read_dump
+from talus_testing import head, max_difference, read_dump
 
-SCENE = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-boundary f f f
-comm_modify vel yes
+SCENE = head() + """
 region box block -3 3 -3 3 -3 3
 region around block -3 3 -3 3 -3 3
 region unused sphere 0 0 0 1
@@ -95,12 +86,7 @@ CASES = {
     "dump": ("write_dump all custom there id x", ON),
 }
 ONLY = {"pair_coeff": OWN, "pair style of LAMMPS": STOCK}    # where it is a change
-TILES = """
-units lj
-atom_style sphere
-newton off
-boundary f f f
-comm_modify vel yes
+TILES = head(map=None) + """
 region box block -6 6 -6 6 -6 6
 create_box 1 box
 lattice sc 1.05

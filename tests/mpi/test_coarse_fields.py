@@ -4,21 +4,12 @@
 """compute coarse/grid: sums over the grid against sums over particles and contacts, the weight of a bed, ranks, errors."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, marked_word, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, marked_word, thermo, write_sphere_data
 
-SCENE = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head("si", "{boundary}") + """
 read_data grains
 {pair}
 neighbor 0.1 bin

@@ -3,21 +3,11 @@
 """What contacts remember rests in one place, whoever has them: each once, through chains of restart files, commands that
 are defined again, and runs of the stock styles in between."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
-HEAD = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-boundary {0} {0} f
-"""
+HEAD = head(boundary="{0} {0} f")
 LAW = "hertz/history 40000.0 NULL 400.0 NULL 0.5 1"
 OWN = "contact hertz 40000.0 400.0 tangential multistep NULL NULL 0.5"
 AGAIN = "\nclear\n" + HEAD.format("f") + "read_restart state\n"

@@ -5,11 +5,9 @@ the load that it has borne. Left out where /usr/bin/python3 has no GetFEM (tests
 
 import os
 import re
-import sys
 import unittest
 import xml.etree.ElementTree
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, CoupledCase
 
 PYTHON = "/usr/bin/python3"    # of Debian, whose packages these are

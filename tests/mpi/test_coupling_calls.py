@@ -4,19 +4,12 @@
 fail or lose each other; errors of LAMMPS; bodies, fixes and scripts that come and go."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import BUILD, CoupledCase
+from talus_testing import head
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 region all block -4 4 -4 4 -4 4
 create_box 1 all
 create_atoms 1 single -1 0 0.4

@@ -3,20 +3,12 @@
 """A scene that changes between the calls of a partner, between save and restore, and several partners of one instance: each
 ends well, with the right numbers, or in a TalusError, on any number of ranks, and no rank waits for ever."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
+from talus_testing import head
 
-SCENE = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-boundary f f f
-comm_modify vel yes
+SCENE = head() + """
 region box block -3 3 -3 3 -3 3
 region reg block -3 3 -3 3 -3 3
 create_box 1 box

@@ -8,7 +8,6 @@ import re
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, CoupledCase
 
 
@@ -40,8 +39,7 @@ class Float(CoupledCase):
         self.assertAlmostEqual(windows[20][0] / windows[5][0], 4.0, delta=1.5)
         self.assertGreater(windows[80][1] / windows[20][1], 6.0)
         self.assertLess(windows[5][1], 2e-4)
-        with open(self.path("float.svg")) as file:
-            picture = file.read()
+        picture = self.read("float.svg")
         self.assertGreater(picture.count("<circle"), 40)
         self.assertTrue(picture.endswith("</svg>\n"))
         self.run_float(np=2)

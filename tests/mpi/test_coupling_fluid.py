@@ -10,7 +10,6 @@ import sys
 import unittest
 import xml.etree.ElementTree
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, CoupledCase
 
 

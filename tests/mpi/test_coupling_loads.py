@@ -4,29 +4,14 @@
 integrator and motion, the same bits on 1, 2 and 4 ranks; angular impulses about a point; work; time."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, head, read_dump, write_sphere_data
 from tossed_clumps import write_clumps
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hooke 1e3 {damping} limit_damping
-timestep {dt}
+SCENE = begin(read="read_data grains", law="hooke 1e3 {damping} limit_damping", skin=0.3, dt="{dt}") + """
 {integrator}
 {more}
 fix body all large/body box 0 0 0 4 4 4 inside contact hooke 1e3 {damping} limit_damping {friction} {move}
@@ -49,13 +34,7 @@ INTEGRATORS = {
     "stock": "fix step all nve/sphere",
     "shapes": "fix shapes all shape/gran type 1 box 0.7 0.6 0.5 density 1 orient random 11",
 }
-CLUMPS = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+CLUMPS = head() + """
 fix prop all property/atom mol ghost yes
 read_data clumps fix prop NULL Molecules
 group clumps molecule > 0

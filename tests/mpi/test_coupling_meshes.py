@@ -11,32 +11,19 @@ import random
 import sys
 import unittest
 
-TESTS = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(TESTS, "..", "lib"))
 import body_meshes
 import deforming_reference
 import moved_mesh
 from coupled_case import CoupledCase
-from talus_testing import Sphere, read_dump, write_sphere_data
+from talus_testing import Sphere, begin, read_dump, write_sphere_data
+from vectors import dot
 
 STICKY = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 ROLLING = "hertz/material 1e6 0.7 0.3 tangential mindlin NULL 1.0 0.5 rolling sds 100 1 0.2 twisting sds 50 1 0.1"
 SECOND = "hooke 1e4 20 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 DT = 0.001
 
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt}
+SCENE = begin(boundary="{boundary}", read="{read}", law="{law}", skin=0.2, dt="{dt}") + """
 fix step all {integrator} {gravity}
 fix body all large/body mesh {mesh} contact {law} move {move} {more}
 thermo_style custom step
@@ -61,10 +48,6 @@ def grains(layers=2, low=0.95, jitter=0.04, side=5):
                    diameter=draw.uniform(0.9, 0.98)) for k in range(layers) for j in range(side) for i in range(side)]
 
 
-def dot(a, b):
-    return sum(p * q for p, q in zip(a, b))
-
-
 class MovedMesh(CoupledCase):
 
     def setUp(self):
@@ -76,17 +59,13 @@ class MovedMesh(CoupledCase):
     def scene(self, triangles, move="vertices", law=STICKY, read="read_data grains", boundary="f f f", dt=DT, more="",
               integrator="nve/sphere/symplectic", gravity="gravity 5.0 vector 0 0 -1"):
         body_meshes.write_stl(self.path("mesh.stl"), triangles)
-        text = SCENE.format(boundary=boundary, read=read, law=law, dt=dt, integrator=integrator, gravity=gravity, mesh="mesh.stl",
+        return SCENE.format(boundary=boundary, read=read, law=law, dt=dt, integrator=integrator, gravity=gravity, mesh="mesh.stl",
                             move=move, more=more)
-        if "read_restart" in read:
-            for line in ("units lj", f"boundary {boundary}", "atom_style sphere"):
-                text = text.replace(line + "\n", "", 1)
-        return text
 
     def move(self, name, np=1, env=None, **spec):
         """Rows of the exchanges."""
         self.write(name + ".spec", json.dumps(spec))
-        self.launch([sys.executable, os.path.join(TESTS, "..", "lib", "moved_mesh.py"), name + ".spec", name], np, env)
+        self.launch([sys.executable, moved_mesh.__file__, name + ".spec", name], np, env)
         return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):
@@ -324,8 +303,7 @@ write_dump all custom belt.end id x y z vx vy vz omegax omegay omegaz modify for
         self.assertEqual(len(end.atoms), 27)
         self.assertLess(far, 0.73 * 2.4)
         self.assertGreater(rows[-1]["load"][6], 5)
-        with open(self.path("log.driver")) as file:
-            self.assertIn("particles are inside", file.read())
+        self.assertIn("particles are inside", self.read("log.driver"))
         largest = max(abs(c) for x in rows[-1]["x"] for c in x)
         self.assert_close(largest, 0.73 * 2.4, 1e-9)
         self.assertTrue(os.path.exists(self.path("ball.900.vtp")))

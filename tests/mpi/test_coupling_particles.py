@@ -4,15 +4,11 @@
 records and in the arrays of LAMMPS; the same bits on any ranks and threads; drag impulses and fields that lose nothing;
 errors."""
 
-import json
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
-from talus_testing import Sphere, write_sphere_data
+from talus_testing import Sphere, begin, head, write_sphere_data
 
 HEAD = """
 import json, math, sys
@@ -43,12 +39,7 @@ def as_lists(rows):
     return [[float(x) for x in row] if hasattr(row, "__len__") else float(row) for row in rows]
 """
 
-FREE = """
-units lj
-boundary f f f
-atom_style sphere
-newton off
-comm_modify vel yes
+FREE = head(map=None) + """
 {extra}
 region all block 0 20 0 20 0 40
 create_box 1 all
@@ -74,13 +65,7 @@ INTEGRATORS = {
     "verlet": ("fix weight all " + GRAVITY + "\nfix step all nve/sphere", 0.5, 0.5),
 }
 
-CLUMPS = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+CLUMPS = head() + """
 fix prop all property/atom mol ghost yes
 region box block -10 10 -10 10 -20 20
 create_box 1 box
@@ -102,17 +87,8 @@ thermo_style custom step
 """
 
 # a bed that is stirred by forces, torques and drag on some of its grains, put anew every few steps
-BED = """
-units lj
-boundary p f f
-atom_style sphere
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential multistep NULL NULL 0.5
-timestep 0.001
+BED = begin(boundary="p f f", read="read_data grains", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001,
+            map=None) + """
 {move}
 fix floor all large/body box 0 0 4 8.2 6 8 inside contact hooke 1e4 20 tangential multistep NULL NULL 0.5
 thermo {thermo}
@@ -156,8 +132,7 @@ class Particles(CoupledCase):
         return self.read_json("said")
 
     def log(self):
-        with open(self.path("log.driver")) as file:
-            return file.read()
+        return self.read("log.driver")
 
     def free(self, integrator, thermo=0, friction="tangential multistep NULL NULL 0.5", extra=""):
         return FREE.format(move=INTEGRATORS[integrator][0], thermo=thermo, friction=friction, extra=extra)

@@ -4,14 +4,11 @@
 between; what is refused; fixed point iteration on it."""
 
 import os
-import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from coupled_case import CoupledCase
-from saved_scenes import LAW, MOVE, SCENES, head, pair, tossed, walls
+from saved_scenes import LAW, MOVE, SCENES, pair, start, tossed, walls
 from talus_testing import read_dump, thermo
 
 BEGIN = """
@@ -36,7 +33,7 @@ def refusal(call, *words):
         return str(error)
     return "none"
 """
-PARTNER_SCENE = head() + pair() + MOVE + walls() + f"""
+PARTNER_SCENE = start() + pair() + MOVE + walls() + f"""
 fix guided all large/body box 8.5 1.0 3.5 1 1 1 outside contact {LAW} move external
 fix sheet all large/body mesh sheet.stl contact {LAW} move vertices
 """
@@ -204,7 +201,7 @@ class Restore(CoupledCase):
     def setUp(self):
         super().setUp()
         tossed(self.path("grains"))
-        self.write("scene", head("p p f") + pair() + MOVE + f"group few id 3 50 7 101\nfix floor all large/body plane 0 0 0 0 0 1 "
+        self.write("scene", start("p p f") + pair() + MOVE + f"group few id 3 50 7 101\nfix floor all large/body plane 0 0 0 0 0 1 "
                    f"contact {LAW}\n")
 
     def assert_same_end(self, name, other):
@@ -250,8 +247,7 @@ class Restore(CoupledCase):
     def repeated_rows(self, *words):
         """{step: rows of thermo output}, which are the same."""
         self.drive(OUTPUTS, *words)
-        with open(self.path("log.out")) as file:
-            log = file.read()
+        log = self.read("log.out")
         self.assertEqual(log.count("overlap by"), 1, "a warning is not repeated with the steps")
         rows = {}
         for row in thermo(log):
@@ -285,7 +281,7 @@ class Restore(CoupledCase):
     def test_refusals(self):
         for scene in "scene", "bare":
             if scene == "bare":
-                self.write("scene", head() + pair() + MOVE + walls())
+                self.write("scene", start() + pair() + MOVE + walls())
             self.drive(ERRORS, np=2)
             nothing, added, deleted, anew, bricks, other, sizes, root = self.read_json("said")
             self.assertEqual(nothing, "talus_restore: snapshot is NULL")

@@ -9,7 +9,6 @@ import re
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import SOURCE, CoupledCase
 
 ROVER = os.path.join(SOURCE, "examples", "cosim", "rover.py")

@@ -3,11 +3,8 @@
 """talus_save() and talus_restore(): steps after a restore repeat those after the save with all bits, and are those of a run
 that was never saved, for every kind of scene, on ranks and threads."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from coupled_case import CoupledCase
 from saved_scenes import SCENES
 from talus_testing import read_dump

@@ -9,15 +9,9 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import PLUGIN, SceneCase
+from talus_testing import PLUGIN, SceneCase, head
 
-BOX = """
-units lj
-boundary {boundary}
-atom_style sphere
-newton off
-comm_modify vel yes
+BOX = head(boundary="{boundary}", map=None) + """
 region box block 0 8 0 7 0 6
 create_box 1 box
 region middle block 1 7 1 6 1 5
@@ -172,8 +166,7 @@ class Life(SceneCase):
         result = subprocess.run([sys.executable, "-c", program, library, scene(), PAIR], cwd=self.dir, capture_output=True,
                                 text=True, timeout=120, env={**os.environ, "TMPDIR": self.dir})
         self.assertIn("survived", result.stdout, result.stderr)
-        with open(self.path("log.a")) as file:
-            self.assertEqual(blocks(file.read()), [OURS])
+        self.assertEqual(blocks(self.read("log.a")), [OURS])
         with open(self.path("log.b")) as file:
             log = file.read()
         self.assertEqual(blocks(log), [])
@@ -184,8 +177,7 @@ class Exchange(SceneCase):
 
     def run_scene(self, more, np=2, boundary="p p f", **options):
         log = self.run_lammps(scene(more, boundary=boundary, run="run 30\ncomm_proxy info\n" + DUMP), np=np, **options).log
-        with open(self.path("dump")) as file:
-            return log, file.read()
+        return log, self.read("dump")
 
     def test_chosen_for_the_run(self):
         dumps = []
@@ -281,8 +273,7 @@ class StockStyles(SceneCase):
         results = []
         for path in os.path.dirname(PLUGIN), "":
             log = self.run_lammps(text + DUMP, np=np, env={"LAMMPS_PLUGIN_PATH": path}).log
-            with open(self.path("dump")) as file:
-                results.append((re.findall(r"^ *\d+(?: +\S+){3,} *$|Neighbor list builds.*|Dangerous builds.*", log, re.M), file.read()))
+            results.append((re.findall(r"^ *\d+(?: +\S+){3,} *$|Neighbor list builds.*|Dangerous builds.*", log, re.M), self.read("dump")))
         self.assertGreater(len(results[0][0]), 4)
         return results
 

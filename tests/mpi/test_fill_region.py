@@ -5,20 +5,11 @@
 
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word, read_dump
+from talus_testing import SceneCase, head, marked_word, read_dump
 
-BEGIN = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+BEGIN = head("si", "{boundary}") + """
 region box block -1 1 -1 1 -1 1
 create_box 2 box
 region r {region}

@@ -2,10 +2,8 @@
 """Sums, gathers and messages of more values than MPI counts, with a smaller limit."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, run_program
 
 

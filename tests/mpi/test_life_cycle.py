@@ -4,11 +4,8 @@
 The restarted half must repeat the first one, and both the session without an interruption."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import session_scene
 from session_scene import PAIR, START
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data

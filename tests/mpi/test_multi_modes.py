@@ -5,25 +5,16 @@
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 LENGTH = 12.0
-SCENE = """
-units lj
-boundary p p f
-atom_style sphere
-atom_modify map yes
-newton {newton}
-comm_modify vel yes
+SCENE = head(boundary="p p f", newton="{newton}") + """
 read_data grains
 {modes}
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 fix floor all large/body plane 0 0 0  0 0 1  contact hertz 4000.0 40.0 tangential multistep NULL NULL 0.5

@@ -5,21 +5,12 @@
 
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, gathered
-from talus_testing import SceneCase, marked_word, read_dump, thermo
+from talus_testing import SceneCase, head, marked_word, read_dump, thermo
 
-SCENE = """
-units si
-boundary p p f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head("si", "p p f") + """
 region box block 0 1 0 1 0 2
 create_box 2 box
 """
@@ -38,13 +29,7 @@ WORDS = "50 2 top 100.0 diameter uniform 0.05 0.1 mass density 2500 seed 77 velo
 DUMP = "write_dump all custom {name} id type radius mass x y z vx vy vz modify format float %.17g\n"
 
 # what falls out of the box is lost; thermo output, which looks for it, is rare
-LEAKING = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+LEAKING = head("si") + """
 region box block 0 0.1 0 0.1 0 0.3
 create_box 1 box
 """
@@ -64,12 +49,7 @@ thermo_modify lost {lost}
 
 
 # a bed with a mouth above; {boundary}: of its upper face
-BED = """
-units lj
-atom_style sphere
-boundary f f f{boundary}
-newton off
-comm_modify vel yes
+BED = head(boundary="f f f{boundary}", map=None) + """
 processors {grid}
 region box block 0 10 0 10 0 {height}
 create_box 1 box

@@ -7,10 +7,8 @@ object with `comm_proxy yes`.  27 ranks are in test_proxy_codes_long.py."""
 
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, run_program, write_sphere_data
 
 RANKS = 1, 2, 4, 8
@@ -132,8 +130,7 @@ class ProxyCodes(SceneCase):
         names = []
         for name, script in scenes(ranks).items():
             names.append("in." + name.replace(" ", "_"))
-            with open(self.path(names[-1]), "w") as file:
-                file.write(script)
+            self.write(names[-1], script)
         output = self.run_codes("proxy_state_codes", ranks, names)
         counts = [line.split() for line in output.splitlines() if line.endswith("ghosts")]
         self.assertEqual(len(counts), len(names), output[-3000:])

@@ -2,11 +2,8 @@
 # ctest: label=slow timeout=1800
 """The encoded values of test_proxy_codes.py on 27 ranks and on numbers that make odd grids."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_proxy_codes
 
 test_proxy_codes.RANKS = 3, 6, 12, 27

@@ -12,10 +12,8 @@ import itertools
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting
 from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
 
@@ -35,7 +33,6 @@ read_data grains
 pair_style gran/penalty
 pair_coeff * * {law}
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic
 {more}

@@ -4,18 +4,11 @@
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word, run_program
+from talus_testing import SceneCase, head, marked_word, run_program
 
-BOX = """
-units lj
-atom_style sphere
-newton off
-comm_modify vel yes
-{before}
+BOX = head(boundary="p p p", map=None) + """{before}
 region box block 0 8 0 7 0 6
 create_box 2 box
 create_atoms 1 random 250 77 box
@@ -114,8 +107,7 @@ class Messages(SceneCase):
         script = SCENE.format(before="", middle="comm_proxy check yes")
         self.run_lammps(script + 'print "END REACHED"\n', np=4, arguments=("-partition", "2x2"))
         for number in "0", "1":
-            with open(self.path("log.script." + number)) as file:
-                self.assertIn("END REACHED", file.read())
+            self.assertIn("END REACHED", self.read("log.script." + number))
 
     def test_errors_in_the_window(self):
         program = os.path.join(os.environ["TALUS_BINARY_DIR"], "tests", "proxy_error")

@@ -4,11 +4,8 @@
 
 A session under the direct exchange must print and dump what the same session prints under the stock one."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import session_scene
 from session_scene import PAIR, START
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
@@ -86,8 +83,7 @@ class Session(SceneCase):
                 names[piece, swap] = f"{number}-{swap}"
                 script += self.session(PIECES[piece], swap, names[piece, swap])
         self.run_lammps(script + 'log log.end\nprint "END REACHED"\n', np=ranks)
-        with open(self.path("log.end")) as file:
-            self.assertIn("END REACHED", file.read())
+        self.assertIn("END REACHED", self.read("log.end"))
         self.changed = 0
         for (piece, swap), name in names.items():
             with self.subTest(piece=piece, swap=swap, ranks=ranks):
@@ -109,8 +105,7 @@ class Session(SceneCase):
             self.assertLess(abs(row["KinEng"] - other["KinEng"]), 1e-11 * other["KinEng"] + 1e-300)
 
     def rows_of(self, name):
-        with open(self.path("log." + name)) as file:
-            return thermo(file.read())
+        return thermo(self.read("log." + name))
 
     def test_one_rank(self):
         self.check(PIECES, 1)

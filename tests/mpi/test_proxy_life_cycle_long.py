@@ -2,11 +2,8 @@
 # ctest: label=slow timeout=1800
 """The sessions of test_proxy_life_cycle.py, many times over: what depends on timing has its chance."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_proxy_life_cycle
 
 REPETITIONS = 20

@@ -3,10 +3,8 @@
 """The network model of the benchmarks: nothing arrives too early, and all of it is right."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, run_program
 
 

@@ -6,12 +6,9 @@ With walls, run style verlet of LAMMPS is compared as well; in periodic boxes on
 schedule are the same (wrapping rounds), so there verlet/proxy is compared with itself.  All runs of
 the direct exchange are checked: proxies hold NaN while they are under way."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump, thermo, write_sphere_data
 from tossed_grains import LAW as FRICTION, tossed_grains
 
@@ -87,8 +84,7 @@ class Overlap(SceneCase):
         found = {}
         for exchange in exchanges:
             name = exchange.replace(" ", "-")
-            with open(self.path("log." + name)) as file:
-                log = file.read()
+            log = self.read("log." + name)
             builds = int(re.search(r"Neighbor list builds = (\d+)", log).group(1))
             self.assertGreater(builds, 5)
             if "check no" not in log:

@@ -4,21 +4,14 @@
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase
+from talus_testing import SceneCase, head
 
 STEPS = 70
 
 # like bench/in.chute of LAMMPS: grains on frozen ones, periodic along the chute
-CHUTE = """
-units lj
-atom_style sphere
-boundary p p fs
-newton off
-comm_modify vel yes
+CHUTE = head(boundary="p p fs", map=None) + """
 lattice sc 0.8
 region box block -0.5 9.5 -0.5 7.5 -0.5 9
 create_box 2 box
@@ -56,7 +49,6 @@ velocity all create 1.44 87287 loop geom
 pair_style lj/cut 2.5
 pair_coeff 1 1 1.0 1.0 2.5
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 fix 1 all nve
 fix 2 all deform 1 xy erate 0.05 remap x
 """
@@ -80,14 +72,9 @@ special_bonds lj 0 1 1
 neighbor 0.3 bin
 create_bonds many all all 1 0.5 1.02
 velocity all create 1.0 87287 loop geom
-neigh_modify every 1 delay 0 check yes
 fix 1 all nve
 """
-HYBRID = """
-units lj
-atom_style sphere
-newton off
-comm_modify vel yes
+HYBRID = head(boundary="p p p", map=None) + """
 lattice sc 0.9
 region box block 0 8 0 8 0 8
 create_box 2 box
@@ -102,7 +89,6 @@ pair_coeff 1 1 soft 0.0
 pair_coeff 2 2 soft 1.0
 velocity all create 2.0 87287 loop geom
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.002
 fix 1 all nve/sphere
 compute clusters all cluster/atom 1.1
@@ -138,14 +124,12 @@ class Stock(SceneCase):
 
     def results(self, name):
         """What the run printed and dumped, as text; how often lists were made."""
-        with open(self.path("log." + name)) as file:
-            log = file.read()
+        log = self.read("log." + name)
         numbers = [line for line in log.splitlines() if re.match(r"[\s\d.e+-]+$", line)]
         dumps = {}
         for file_name in sorted(os.listdir(self.dir)):
             if file_name.startswith(f"dump.{name}."):
-                with open(self.path(file_name)) as file:
-                    dumps[file_name.split(".")[2]] = file.read()
+                dumps[file_name.split(".")[2]] = self.read(file_name)
         builds = [int(n) for n in re.findall(r"Neighbor list builds = (\d+)", log)]
         return numbers, dumps, builds
 

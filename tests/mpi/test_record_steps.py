@@ -9,10 +9,8 @@ the log says so."""
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from tossed_grains import LAW, MOVERS, TossedCase
 
 RECORDS = "steps without output              in the records"
@@ -291,8 +289,7 @@ class FixesThatRead(RecordsCase):
         frames, log = self.run_scene(style, more=READERS, **options)
         texts = [frames]
         for name in SEEN:
-            with open(self.path(name)) as file:
-                texts.append(file.read())
+            texts.append(self.read(name))
             os.remove(self.path(name))
         return texts, log
 
@@ -328,8 +325,7 @@ class FixesThatRead(RecordsCase):
         results = []
         for style in STOCK, "":
             frames, log = self.run_scene(style, more=more)
-            with open(self.path("means")) as file:
-                results.append((frames, file.read()))
+            results.append((frames, self.read("means")))
         self.assertIn(RECORDS, log)
         self.assertRegex(results[0][1], r"(?m)^\d+ 0x1")
         self.assertEqual(*results)
@@ -368,8 +364,7 @@ class HybridPairs(RecordsCase):
         results = []
         for style in STOCK, "":
             frames, log = self.run_scene(style, pair=self.LAWS["after"], more=more)
-            with open(self.path("said")) as file:
-                results.append((frames, file.read()))
+            results.append((frames, self.read("said")))
         self.assertIn(RECORDS, log)
         self.assertEqual(*results)
 

@@ -12,11 +12,9 @@ import os
 import random
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import (SceneCase, Sphere, part_of, read_dump, read_local, run_lammps,
                            write_sphere_data)
 

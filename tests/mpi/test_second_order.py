@@ -3,30 +3,21 @@
 """Order 2 keeps one trajectory: the same bits on any ranks and threads, with and without overlap, in steps through the
 arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well; also with large bodies that move."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 SIDE = 6
 LAW = "hertz 2.0e4 50.0 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 RESISTING = {"holding": LAW.replace("limit", "rolling 0.1 spinning 0.1 limit"),
              "springs": LAW.replace("limit", "rolling sds 2e3 5 0.1 limit"),
              "forces": "hertz 2.0e4 0 tangential mindlin/force 2e4 0 0.5"}
-START = """
-units lj
-boundary {boundary}
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+START = head(boundary="{boundary}") + """
 read_data data
 """
-CONTINUE = "units lj\nnewton off\natom_style sphere\natom_modify map array\ncomm_modify vel yes\nread_restart half\n"
+CONTINUE = head() + "read_restart half\n"
 UNDAMPED = "hooke 2.0e4 0.0 tangential multistep NULL 0 0.2 slider midpoint"      # contacts end with a correction
 PHYSICS = """
 neighbor 0.1 bin

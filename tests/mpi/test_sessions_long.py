@@ -3,10 +3,8 @@
 """test_sessions.py with other cases and thirty times as many. TALUS_ROUND chooses others."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_sessions
 
 

@@ -6,10 +6,8 @@ writes, and the same particles with the same bits on any number of ranks."""
 import glob
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import *
 
 SCENE = os.path.join(os.environ["TALUS_SOURCE_DIR"], "input", "in.settling")

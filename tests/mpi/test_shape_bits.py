@@ -5,29 +5,20 @@ box, with bodies and meshes that move, particles that come in during the run, an
 
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 
 STEPS, HALF = 3000, 1800
 LAW = "hertz 2e4 60 tangential multistep NULL NULL 0.5"
 CORNERS = "vertices 4 1 1 1 1 -1 -1 -1 1 -1 -1 -1 1"
 
-START = """
-units lj
-boundary {x} f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+START = head(boundary="{x} f f") + """
 processors {grid}
 {read}
 group balls type 3
 neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep 0.0005
@@ -133,8 +124,7 @@ class ShapeBits(SceneCase):
     def test_new_ids(self):
         """Two boxes one on the other, held by friction: contacts are known by the IDs that particles had."""
         pile = "".join(f"create_atoms 1 single {x} 4 {z}\n" for z in (0.299, 0.897) for x in (1, 4))
-        script = "units lj\natom_style sphere\natom_modify map array\nnewton off\ncomm_modify vel yes\nboundary f f f\n" \
-            f"processors * * 1\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n{pile}" \
+        script = head() + f"processors * * 1\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n{pile}" \
             "region left block 0 2 0 8 0 8\ndelete_atoms region left compress no\nneighbor 0.3 bin\ntimestep 0.0005\n" \
             f"pair_style gran/penalty\npair_coeff * * {LAW}\nfix s all shape/gran type 1 box 0.8 0.7 0.6 density 1\n" \
             f"fix g all gravity/talus 15 vector 0.15 0 -1\nfix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n" \

@@ -2,22 +2,13 @@
 """What contact points of shapes remember is kept by both particles, so that nothing has to be sent to ghosts. Where there are
 periodic borders the rank of one tells the other: two cubes that rub on each other among many spheres cost next to nothing."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, sent
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
 EVERY, STEPS = 5, 200
-SCRIPT = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head(boundary="{boundary}") + """
 processors 2 1 1
 read_data grains
 group balls type 1

@@ -6,28 +6,19 @@ coarse/grid to the same; on any number of ranks, behind a run and after a restar
 
 import collections
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, read_local, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, read_local, thermo, write_sphere_data
+from vectors import cross
 
 WORDS = "id1 id2 body x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap fx fy fz tx ty tz fn ft eng h1 h2 h3".split()
 LAW = "hooke 1e4 20 tangential multistep NULL NULL 0.5"
 CELLS = 6, 6, 16
-SCENE = f"""
-units lj
-boundary {{boundary}} f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head(boundary="{boundary} f f") + f"""
 {{read}}
 group balls type 3
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {LAW}
 timestep 5e-4
@@ -189,10 +180,6 @@ class Outputs(SceneCase):
         self.run_scene(2, commands="run 3500\nwrite_dump all local later index c_rows[*] modify format line \"%d "
                        + " ".join(["%.17g"] * len(WORDS)) + '"')
         self.assertEqual(self.last_local(self.path("later")), self.last_local(self.path("rows")))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def grid(path):

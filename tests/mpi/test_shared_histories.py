@@ -4,26 +4,18 @@
 and what the ranks tell each other of histories is as much as there are contacts with ghosts, not ghosts or entries of ghosts."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from message_counts import counting, sent
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
 EDGE, LARGE, SMALL = 24.0, 10.0, 0.5    # box, diameters
 SHELL, OTHERS = 1200, 1500
 DRIFT = 3.0, 2.0, 1.0                   # all move through borders
 STEPS, EVERY = 100, 10
 FRICTION, WITHOUT_HISTORY = "multistep", "onestep"
-SCRIPT = """
-units lj
-boundary p p p
-atom_style sphere
-newton off
-comm_modify vel yes
+SCRIPT = (head(boundary="p p p", map=None) + """
 {grid}
 read_data grains
 pair_style gran/penalty
@@ -38,7 +30,7 @@ thermo 1000
 dump all all custom 50 dump id x y z vx vy vz omegax omegay omegaz fx fy fz c_touching
 dump_modify all format float %%a sort id
 run %d
-""" % (EVERY, STEPS)
+""") % (EVERY, STEPS)
 
 
 def grains():

@@ -3,26 +3,14 @@
 """fix wall/gran/talus and wall/gran/region/talus: the same bits on any number of ranks and threads, with or without
 overlap, and where every step goes through the arrays of LAMMPS; -sf talus chooses them."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, read_dump, write_sphere_data
+from talus_testing import SceneCase, begin, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
 LAW = "hooke/history 4000.0 NULL 20.0 NULL 0.5 0"
-SCENE = f"""
-units lj
-boundary f f f
-atom_style sphere
-newton off
-comm_modify vel yes
-read_data grains
-pair_style gran/penalty
-pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
-neighbor 0.1 bin
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hertz 4000.0 40.0 tangential multistep NULL NULL 0.5", skin=0.1, dt=0.001,
+              map=None) + f"""
 fix step all nve/sphere/symplectic gravity 10.0 vector 0.3 0.1 -1
 variable turn equal '3.0*time'
 region drum cylinder y 4.75 3.0 6.2 -0.5 7.6 rotate v_turn 4.75 0 3.0 0 1 0

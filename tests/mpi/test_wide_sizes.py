@@ -3,22 +3,13 @@
 """Sizes 1:30: the same bits on ranks, threads, across a restart, with the exchange of LAMMPS and in its multi mode; and a
 particle is a proxy only where something can touch it."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, read_dump
+from talus_testing import SceneCase, head, read_dump
 
 SMALL = 0.002
-HEAD = """units si
-atom_style sphere
-atom_modify map array
-boundary {sides} f
-newton {newton}
-comm_modify vel yes
-"""
+HEAD = head("si", "{sides} f", newton="{newton}")
 FILL = HEAD + """region box block 0 0.1 0 0.1 0 0.16 units box
 create_box 1 box
 pair_style gran/hertz/history 1e6 NULL 5e3 NULL 0.5 1
@@ -30,7 +21,6 @@ SCENE = HEAD + """{read}
 {modes}
 pair_style gran/hertz/history 1e6 NULL 5e3 NULL 0.5 1
 pair_coeff * *
-neigh_modify every 1 delay 0 check yes
 timestep 1e-5
 fix weight all gravity 9.81 vector 0.3 0 -1
 fix move all nve/sphere

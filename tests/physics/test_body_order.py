@@ -5,31 +5,17 @@ they move: errors against a solution with a small time step, over several sphere
 a step. The limit must be that of order 1, which has none of what makes the order two."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 import body_reference
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
 DETACHING = "jkr 2.0e4 300.0 0.3 0.3 tangential mindlin NULL 0.0 0.3"
 COUNT = 8    # spheres in a row along y, 2 from each other
-SCENE = f"""
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
-read_data data
-neighbor 0.5 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {{law}}
+SCENE = begin(law="{law}", skin=0.5) + f"""
 fix step all nve/sphere/symplectic {{order}} gravity 10 vector 0 0 -1
 {{body}}
 timestep {{dt!r}}

@@ -3,26 +3,12 @@
 against a body of the same shape and motion, and with the same bits on any ranks and across a restart."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, max_difference, read_dump, thermo, write_sphere_data
 
-START = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 20 tangential dashpot 20 0.5
-timestep 0.001
+START = begin(read="{read}", law="hooke 1e4 20 tangential dashpot 20 0.5", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 variable z equal 0.3*sin(0.008*step)
 variable x equal 0.2*sin(0.005*step)
@@ -102,8 +88,7 @@ class Regions(SceneCase):
             many, _ = self.frame(f"np{np}", both + f"fix body all large/body region its {law}\n", np=np)
             self.assert_same_bits(one, many, COLUMNS)
         self.frame("half", both + f"fix body all large/body region its {law}\nrun 200\nwrite_restart half\n", 400)
-        again = START.format(read="read_restart half").replace("atom_style sphere\n", "").replace(
-            "units lj\n", "").replace("boundary f f f\n", "")
+        again = START.format(read="read_restart half")
         log = self.run_lammps(again + both + f"fix body all large/body region its {law}\n" +
                               OUTPUT.format(name="again") + "run 200\n", np=2).log
         self.assertNotIn("another kind of motion", log)

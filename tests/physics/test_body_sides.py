@@ -2,27 +2,13 @@
 """On which side meshes act: grains do not fall through meshes whose triangles face any side; closed meshes act where the
 particles are; messages for what is too deep, went through, or is on a side that does not act."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, max_difference, read_dump, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hertz 2e5 150 tangential multistep NULL NULL 0.4
-timestep 0.001
+SCENE = begin(read="{read}", law="hertz 2e5 150 tangential multistep NULL NULL 0.4", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0.2 0.1 -1
 """
 LAW = "contact hertz 2e5 150 tangential multistep NULL NULL 0.4"
@@ -50,9 +36,6 @@ class Sides(SceneCase):
                   **options):
         write_sphere_data(self.path("grains"), ((-6, 6), (-6, 6), (-6, 6)), some, types)
         scene = SCENE.format(read=read)
-        if read != "read_data grains":
-            for line in ("units lj\n", "boundary f f f\n", "atom_style sphere\n"):
-                scene = scene.replace(line, "")
         return self.run_lammps(scene + body + OUTPUT.format(name=name, every=steps) + f"run {steps}\n" + more, name=name,
                                **options).log
 

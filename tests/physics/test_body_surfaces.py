@@ -2,27 +2,13 @@
 """Belts, open pipes and cones, and what each triangle of a mesh bears: against closed forms and sums."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 0
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hooke 1e4 0", skin=0.2, dt=0.001) + """
 {step}
 """
 BALL = "fix step all nve/sphere/symplectic gravity 10 vector 0 0 -1"

@@ -4,29 +4,14 @@
 it carries the weight of what it holds. test_body_vessel_long.py is the same with 20 000 particles for 20 000 steps."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_balance
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.15 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * hertz 4e4 200 tangential multistep NULL NULL 0.4
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hertz 4e4 200 tangential multistep NULL NULL 0.4", skin=0.15, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 5.0 vector 0 0 -1
 variable t equal step*0.001
 variable on equal step<{end}

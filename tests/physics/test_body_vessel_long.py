@@ -3,11 +3,8 @@
 """test_body_vessel.py with 20 000 particles, shaken for 20 000 steps: 70 jerks upwards. Then it rests as long as the bed
 needs to settle."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_body_vessel
 
 

@@ -4,23 +4,14 @@
 collapses and comes to rest add up to a constant, to second order in the time step, with order 1 and 2, on more ranks with
 the same numbers; contacts between spheres of one clump are none."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, thermo
+from talus_testing import SceneCase, head, thermo
 from tossed_clumps import write_clumps
 
 LAW = "hertz/material 1e6 0.5 0.3 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
 WALLS = "0 0 0  0 0 1", "0 0 0  1 0 0", "9 0 0  -1 0 0", "0 0 0  0 1 0", "0 9 0  0 -1 0"
-HEAP = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+HEAP = head() + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 velocity all set 0 0 0

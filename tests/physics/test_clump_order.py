@@ -5,27 +5,18 @@ solution with a small time step; that one against the limit of a slow program of
 of all spheres are compared, a while after the impacts."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import clump_reference
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 from tossed_clumps import DIAMETERS, PLACES, random_rotation
 
 LAW = "hertz 2.0e4 300.0 tangential multistep NULL NULL 0.3 slider midpoint limit_damping"
 FLOOR = "fix floor all large/body plane 0 0 0  0 0 1 contact LAW"
 DUMBBELL = ((-0.4, 0.0, 0.0), (0.4, 0.0, 0.0)), (1.0, 1.0)
 TRIANGLE = PLACES, DIAMETERS
-SCENE = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-atom_modify map array
-comm_modify vel yes
+SCENE = head() + """
 fix prop all property/atom mol ghost yes
 read_data data fix prop NULL Molecules
 group clumps molecule > 0

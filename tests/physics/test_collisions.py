@@ -3,17 +3,11 @@
 the weight of spheres on a floor.  Tables of the figures are printed."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, relative_difference, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, relative_difference, thermo, write_sphere_data
 
-SCRIPT = begin(data="particles") + """
-pair_coeff * * {law}
-neighbor {skin} bin
+SCRIPT = begin("si", read="read_data particles", law="{law}", skin="{skin}") + """
 fix step all nve/sphere/symplectic start half {gravity}
 timestep {dt!r}
 {more}

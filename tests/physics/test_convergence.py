@@ -4,11 +4,8 @@
 Two spheres of diameter 1 m and 1000 kg/m^3 meet at 1 m/s, .01 m apart at the beginning."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
 
 MASS = 1000 * math.pi / 6

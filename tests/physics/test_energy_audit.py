@@ -9,13 +9,9 @@ spheres.  Each run holds thousands of collisions that do not see each other; coe
 import collections
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, part_of, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, part_of, read_dump, thermo, write_sphere_data
 
 ANGLES = (*range(0, 90, 5), 89)
 FRICTION = 0.0, 0.1, 0.3, 0.5, 1.0, 2.0
@@ -59,10 +55,9 @@ LIMITED = "none", "multistep", "own"    # run with limit_damping as well
 
 EXACT = "hooke", "hertz", "hooke/material"    # restitution is that of the words
 
-SCRIPT = begin(data="{data}") + """
+SCRIPT = begin("si", read="read_data {data}") + """
 {coefficients}
 neighbor 0.02 bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 {plane}
 timestep {dt!r}

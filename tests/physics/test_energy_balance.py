@@ -4,24 +4,18 @@
 a collapsing, damped, frictional heap: kinetic + elastic + gravitational + dissipated = constant."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, relative_difference, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
 CANDIDATES, CONTACTS, OVERLAP, ELASTIC, NORMAL, TANGENTIAL, RESISTANCE = (f"c_s[{n}]" for n in range(1, 8))
 ENERGIES = (ELASTIC, NORMAL, TANGENTIAL, RESISTANCE)
 G = 9.81
 
-SCRIPT = begin(units="{units}") + """
-pair_coeff * * {pair}
+SCRIPT = begin("{units}", law="{pair}") + """
 {more}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 timestep {dt}
 compute s all penalty/stats
 compute t all timestep/gran

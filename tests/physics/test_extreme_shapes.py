@@ -4,27 +4,12 @@
 number; the deepest overlap is printed. And the warning where cores of rounded particles overlap."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-POUR = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-read_data grains
-neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt}
+POUR = begin(read="read_data grains", law="{law}", skin="{skin}", dt="{dt}") + """
 fix s all shape/gran {shapes}
 fix g all gravity/talus 10 vector 0 0 -1
 fix walls all large/body box 0 0 {top} {side} {side} $(2*{top}) inside contact {law}

@@ -4,11 +4,8 @@
 pairs of spheres, and spheres on a rigid plane (fix large/body of a material without compliance)."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from impact_tables import (AL_ALLOY, AL_ALLOY_4, AL_OXIDE, ANGLES, CAST_IRON, DIGITISED_4, DIGITISED_6, GLASS, LIMESTONE, MG_ALLOY,
                            NYLON, RECOIL_6, SPINS_6, Impact, collide, law, oblique, spinning, sum_of_force)
 from talus_testing import SceneCase

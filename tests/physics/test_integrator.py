@@ -2,11 +2,8 @@
 """fix nve/sphere/symplectic: order, stability, conservation, restart, gravity, orientation."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
 MASS = math.pi / 6    # diameter 1, density 1
@@ -356,8 +353,7 @@ thermo_modify format float %.17g norm no
 """
         self.run_lammps(scene("data", more + dump("out", "id mass zu vx vy vz", every=100)
                               + "run 1000\n", boundary="p p p"))
-        with open(self.path("log.script")) as file:
-            lines = thermo(file.read())
+        lines = thermo(self.read("log.script"))
         energies = []
         for line, frame in zip(lines, read_dump(self.path("out")), strict=True):
             mass, z, vx, vz = map(frame.column, ("mass", "zu", "vx", "vz"))

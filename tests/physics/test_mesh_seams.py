@@ -2,11 +2,8 @@
 # ctest: timeout=120
 """Flat meshes with seams: what corners differ by, and where triangles are cut, is not felt by a sphere."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from body_meshes import write_stl
 from talus_testing import SceneCase, thermo
 

@@ -4,19 +4,11 @@
 of pressure over fraction, of ellipsoids 1 : 1 : .5 (M&M candies, .68 to .71: A. Donev et al., Science 303, 990, 2004) and of
 spheres (.64)."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, thermo
+from talus_testing import SceneCase, head, thermo
 
-SCENE = """
-units lj
-atom_style sphere
-boundary p p p
-newton off
-comm_modify vel yes
+SCENE = head(boundary="p p p", map=None) + """
 lattice sc {lattice!r}
 region box block 0 8.4 0 8.4 0 8.4 units box
 create_box 1 box

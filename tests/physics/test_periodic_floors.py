@@ -3,26 +3,17 @@
 """Bodies and region walls that end on faces of a periodic box go on behind them: nothing happens to what slides over a face."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from body_meshes import grid, write_stl
-from talus_testing import SceneCase, read_dump, thermo
+from talus_testing import SceneCase, head, read_dump
 
-SLIDE = """
-units lj
-atom_style sphere
-atom_modify map yes
-boundary p p f
-newton off
+SLIDE = head(boundary="p p f") + """
 region box block 0 10 0 4 -1 5
 create_box 1 box
 create_atoms 1 single 5 2 0.49
 create_atoms 1 single 7 1 0.49
 set group all diameter 1.0 density 1.0
-comm_modify vel yes
 neighbor 0.3 bin
 velocity all set 1.0 0.3 0
 pair_style gran/penalty
@@ -48,21 +39,14 @@ OWN = {
     "wall of a region": ("region r block 0 10 0 4 0 5 open 1 open 2 open 3 open 4 open 6\n"
                          "fix w all wall/gran/region/talus hooke/history 100 NULL 1e-12 NULL 0 0 region r"),
 }
-WAVY = """
-units lj
-atom_style sphere
-atom_modify map yes
-boundary p p f
-newton off
+WAVY = head(boundary="p p f") + """
 region box block 0 10 0 4 -2 6
 create_box 1 box
 region grains block 0 10 0 4 0.5 4
 create_atoms 1 random 60 77 grains overlap 1.0 maxtry 200
 displace_atoms all move {shift} 0 0
 set group all diameter 1.0 density 1.0
-comm_modify vel yes
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 velocity all set 2 0.5 0
 pair_style gran/penalty
 pair_coeff * * {law}
@@ -77,19 +61,12 @@ run {steps}
 """
 
 
-RIDGE = """
-units lj
-atom_style sphere
-atom_modify map yes
-boundary p p f
-newton off
+RIDGE = head(boundary="p p f") + """
 region box block 0 {length} 0 4 -2 5
 create_box 1 box
 create_atoms 1 single 2.0995 2 1
 set group all diameter 1.0 density 1.0
-comm_modify vel yes
 neighbor 0.3 bin
-neigh_modify every 1 delay 0 check yes
 velocity all set 1 0 0
 pair_style gran/penalty
 pair_coeff * * hooke 1e4 0

@@ -3,11 +3,8 @@
 """Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap.
 Those that take longer are in test_problems_long."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from small_problems import run_small
 
 

@@ -2,11 +2,8 @@
 # ctest: label=slow timeout=1200
 """Small versions of the problems with published answers that take longer: drum, bin, incline, where a flow stops."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from small_problems import run_small
 
 

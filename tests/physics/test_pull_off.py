@@ -4,14 +4,10 @@
 the energy that is lost at pull-off."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
 R, YOUNG, NU, GAMMA = 0.5, 1e5, 0.3, 50.0
 E_EFF = YOUNG / (2 * (1 - NU * NU))    # of two bodies of this material
@@ -34,11 +30,7 @@ def lost(r_eff):
     return work((9 / 4 * cube)**(1 / 3), r_eff) - work((4 * cube)**(1 / 3), r_eff)
 
 
-DRIVEN = begin() + """
-pair_coeff * * {pair}
-neighbor 0.05 bin
-neigh_modify every 1 delay 0 check yes
-timestep 1e-3
+DRIVEN = begin("si", law="{pair}", skin=0.05, dt=1e-3) + """
 fix drive all move wiggle 0 0 {depth} 2.0
 {wall}
 dump state all custom 1 {out} id z fz
@@ -100,11 +92,7 @@ class PullOff(SceneCase):
             self.assertTrue(all(frame.column("fz")[2] >= 0.0 for frame in frames))
 
 
-IMPACT = begin() + """
-pair_coeff * * {words}
-neighbor 0.05 bin
-neigh_modify every 1 delay 0 check yes
-timestep {dt}
+IMPACT = begin("si", law="{words}", skin=0.05, dt="{dt}") + """
 fix step all nve/sphere/symplectic start half
 {wall}
 compute s all penalty/stats

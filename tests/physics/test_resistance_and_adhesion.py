@@ -5,13 +5,9 @@
 Cases of one test share a run, far from each other: every case has an atom type of its own."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, read_local, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, read_local, write_sphere_data
 
 R, RHO, G = 0.5, 2000.0, 9.81
 MASS = RHO * 4 / 3 * math.pi * R**3
@@ -20,11 +16,10 @@ GN = 100.0                  # 1/s
 DT = 1e-4
 HOOKE = f"hooke {KN} {GN}"
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 {more}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep {dt}
 thermo {steps}
 dump d all custom {every} out id x y z vx vy vz omegax omegay omegaz fx fy fz

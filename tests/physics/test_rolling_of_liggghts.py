@@ -3,25 +3,11 @@
 """rolling cdt and epsd2: torques of single contacts against their formulas, and what they do to a sphere that rolls."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
-BEGIN = """
-units si
-atom_style sphere
-atom_modify map yes
-boundary f f f
-newton off
-comm_modify vel yes
-read_data grains
-pair_style gran/penalty
-pair_coeff * * {law}
-neighbor 0.1 bin
-timestep {dt}
+BEGIN = begin("si", read="read_data grains", law="{law}", skin=0.1, dt="{dt}") + """
 """
 DUMP = "write_dump all custom state id x vx omegax omegay omegaz tqx tqy tqz modify sort id format float %.17g\n"
 KN, MU = 1000.0, 0.3

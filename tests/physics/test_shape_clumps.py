@@ -4,21 +4,14 @@
 ranks and threads, and on a mesh."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 import tossed_clumps
-from talus_testing import SceneCase, read_dump, thermo
+from talus_testing import SceneCase, head, read_dump, thermo
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes cutoff 4
+SCENE = head() + """
+comm_modify cutoff 4
 fix which all property/atom mol ghost yes
 {read}
 group clumps type 1

@@ -3,25 +3,15 @@
 """Energies of convex particles: kinetic with rotation + gravitational + stored + dissipated is what it was, to second
 order in the time step; what dissipates is known by hand."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 group balls type 3
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 pair_style gran/penalty
 pair_coeff * * {law}
 timestep {dt!r}

@@ -3,25 +3,11 @@
 """compute timestep/gran of cubes: stable a little below its limit, unstable above. Mass and edge 1, linear contacts of
 stiffness 1 that stay closed and stick."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
-SCRIPT = """
-clear
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * {pair}
+SCRIPT = "\nclear" + begin(read="read_data grains", law="{pair}", skin=0.2) + """
 fix s all shape/gran type 1 box 1 1 1 rounded {rounded} density {density!r}
 compute t all timestep/gran
 timestep {dt!r}

@@ -5,25 +5,11 @@ elastic impacts keep."""
 
 import math
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {pair}
-timestep {dt}
+SCENE = begin(read="read_data grains", law="{pair}", skin=0.2, dt="{dt}") + """
 {commands}
 thermo {thermo}
 thermo_style custom step ke {columns}

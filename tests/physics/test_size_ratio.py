@@ -8,13 +8,9 @@ lets it fall.  Numbers to compare with: the log of the example in.sync_verlet of
 synchronized_verlet, velocity Verlet)."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
 BIG, SMALL, DENSITY = 0.01, 0.0005, 2500.0    # diameters
 MASS = DENSITY * math.pi / 6 * SMALL**3
@@ -23,7 +19,7 @@ GN = -2 * math.sqrt(KN / MASS) * math.log(E) / math.hypot(math.pi, math.log(E))
 STEPS = 300000
 PUBLISHED = {90000: 8.3124767e-12, 144000: 2.799638e-10, 204000: 3.2458236e-08, STEPS: 4.5214992e-10}
 
-SCRIPT = begin(boundary="p p f") + """
+SCRIPT = begin("si", boundary="p p f") + """
 group big type 1
 group small type 2
 pair_coeff * * {law}

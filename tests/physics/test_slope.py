@@ -13,13 +13,9 @@ spheres (fix rigid/small) cannot roll by itself.  A sphere that rolls against ro
 as well, unless its resistance has a threshold of speed."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 R, RHO, G, MU = 0.5, 2000.0, 9.81, 0.5
 MASS = RHO * 4 / 3 * math.pi * R**3
@@ -27,11 +23,10 @@ KN, KT, GN, GT = 1e7, 4e6, 100.0, 200.0    # GT: overdamped, so that friction do
 DT = 2e-4
 STEPS = 100000
 
-SCRIPT = begin() + """
+SCRIPT = begin("si") + """
 {pairs}
 fix floor all large/body plane 0 0 0 0 0 1 {contacts}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 {move}
 timestep {dt}
 thermo {every}

@@ -2,11 +2,8 @@
 # ctest: label=slow timeout=1800
 """What rests on a slope in test_slope.py, for a million steps."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_slope
 
 

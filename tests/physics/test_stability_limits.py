@@ -6,13 +6,10 @@ largest eigenfrequency of translation and rotation."""
 
 import itertools
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
 DENSITY = 6 / math.pi
 OVERLAP, KICK = 1e-3, 1e-9
@@ -129,17 +126,7 @@ class Limits(SceneCase):
             self.assertEqual(self.grows("data", friction, limit, "p p p"), [False, True], friction)
 
 
-GAS = """
-units si
-boundary p p p
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-read_data data
-neighbor 0.1 bin
-pair_style gran/penalty
-pair_coeff * * hertz/material {young!r} 1.0 0.3
+GAS = begin("si", "p p p", law="hertz/material {young!r} 1.0 0.3", skin=0.1) + """
 fix move all nve/sphere/symplectic
 compute t all timestep/gran
 thermo_style custom step c_t[1] c_t[2] c_t[3]

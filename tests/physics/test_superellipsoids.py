@@ -7,26 +7,12 @@ after a restart."""
 import math
 import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
-SCENE = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-{read}
-neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
-pair_style gran/penalty
-pair_coeff * * {law}
-timestep {dt!r}
+SCENE = begin(boundary="{boundary}", read="{read}", law="{law}", skin=0.2, dt="{dt!r}") + """
 {commands}
 thermo {every}
 thermo_style custom step {columns}

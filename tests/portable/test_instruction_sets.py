@@ -7,10 +7,8 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import session_scene
 from session_scene import PAIR, START
 from talus_testing import SceneCase, read_dump, write_sphere_data

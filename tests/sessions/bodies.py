@@ -6,16 +6,9 @@ import math
 import body_meshes
 from quantities import along, axis, direction, displacement, duration, length, line, number, place, spin, velocity
 from scene import Mesh
+from vectors import cross, dot
 
 AXES = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def plus(a, factor, b):

@@ -5,12 +5,9 @@
 What atom_modify says, before or between runs, must hold: without sorting particles stay where they are in memory, and
 once the pair style is gone the host sorts as often as it was told."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, write_sphere_data
 
 SORTED, UNSORTED = "atom_modify sort 100 0.6", "atom_modify sort 0 0.0"

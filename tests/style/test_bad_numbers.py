@@ -1,17 +1,11 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Positions, velocities and radii that cannot be: one message that names the particle, on any number of ranks."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
-SCENE = begin(boundary="{boundary}") + """
-pair_coeff * * {law}
-neighbor 0.1 bin
+SCENE = begin("si", boundary="{boundary}", law="{law}", skin=0.1) + """
 fix step all {step}
 timestep 1e-4
 thermo 20

@@ -8,12 +8,10 @@ import math
 import os
 import re
 import subprocess
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, marked_word, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, marked_word, read_dump, thermo, write_sphere_data
 from vtk_files import Piece
 
 SOURCE = os.environ["TALUS_SOURCE_DIR"]
@@ -21,18 +19,7 @@ LAW = "contact hooke 1e4 10"
 BOX = "box 0 0 0 4 4 4 inside"
 FREE = "move free mass 1 inertia 1 1 1"
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1e4 10
-timestep 0.001
+SCENE = begin(read="read_data grains", law="hooke 1e4 10", skin=0.2, dt=0.001) + """
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 region well cylinder z 0 0 3 -3 3
 variable a equal 3
@@ -199,8 +186,7 @@ thermo_modify format float %.15g
             self.assertEqual(plate_then.cells, {"Polys": [[0, 1, 2], [3, 4, 5]]})
             row = [r for r in rows if r["Step"] == step][-1]
             self.assertAlmostEqual(plate_then.cell_data["pressure"][0], row["f_body[1][1]"], delta=1e-6)
-        restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace(
-            "read_data grains", "read_restart half")
+        restart = SCENE.replace("read_data grains", "read_restart half")
         again = thermo(self.run_lammps(restart + commands + "run 50\n").log)
         self.assertAlmostEqual(again[-1]["f_body[1][3]"], rows[-1]["f_body[1][3]"], delta=1e-13)
 
@@ -217,7 +203,7 @@ thermo 30
 thermo_modify format float %.15g
 """
         whole = thermo(self.run_lammps(SCENE + commands + "run 30\nwrite_restart half\nrun 30\n", np=2).log)[-1]
-        restart = SCENE.replace("units lj\nboundary f f f\natom_style sphere\n", "").replace("read_data grains", "read_restart half")
+        restart = SCENE.replace("read_data grains", "read_restart half")
         for np in 1, 2:
             again = thermo(self.run_lammps(restart + commands + "run 30\n", np=np).log)[-1]
             for word, value in whole.items():
@@ -287,8 +273,7 @@ run 0
             version = int(re.search("define TALUS_SHAPE_VERSION ([0-9]+)", file.read()).group(1))
         makers = {"talus_make_shape": 1, f"talus_make_shape_{version + 1}": version + 1, "make_a_shape": None}
         for name, other in makers.items():
-            with open(self.path("maker.cpp"), "w") as file:
-                file.write(f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
+            self.write("maker.cpp", f'extern "C" void *{name}(int, const char *const *, char *, int) {{ return nullptr; }}\n')
             self.compile_shape(self.path("maker.cpp"), f"{name}.so")
             message = (f"was built with version {other} of custom_shape.h, this Talus has version {version}: compile "
                        "it anew") if other else f"has no function talus_make_shape_{version}: see custom_shape.h"

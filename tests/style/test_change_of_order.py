@@ -2,12 +2,9 @@
 # ctest: cost=25 label=smoke
 """A run goes on with the other order of the integrator: what contacts remember goes with it."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
 SCENE = """
 pair_style gran/penalty
@@ -19,7 +16,7 @@ neighbor 0.1 bin
 timestep {dt!r}
 thermo 1000
 """
-START = "units lj\nboundary f f f\nnewton off\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+START = head()
 OUT = "id x y z vx vy vz omegax omegay omegaz fx fy fz"
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 OTHER = {"order 1 start half": "order 2", "order 2": "order 1 start half"}

@@ -4,23 +4,14 @@
 
 import itertools
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, max_difference, read_dump, thermo
+from talus_testing import SceneCase, head, max_difference, read_dump, thermo
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 LAW = "hooke 2e4 30 tangential multistep NULL 10 0.3"
-BOX = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+BOX = head() + """
 fix prop all property/atom mol ghost yes
 region box block -10 10 -10 10 -10 10
 create_box 2 box
@@ -35,12 +26,7 @@ END = """
 run {steps}
 write_dump all custom last id {motion} modify format float %.17g sort id
 """
-AGAIN = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+AGAIN = head() + """
 read_restart state
 fix prop all property/atom mol ghost yes
 pair_style gran/penalty
@@ -176,8 +162,7 @@ class GivenMasses(BodyCase):
     def test_an_impact_by_hand(self):
         """Without friction and damping, on the sphere at the end of a rod: e = 1, with 1/m = 1/M + a^2/I."""
         mass, moment, arm, v = 2.0, 0.6, 0.4, 1.0
-        with open(self.path("bodies"), "w") as file:
-            file.write(f"1\n1 {mass} 0 0 1 0.7 {moment} 0.6 0 0 0 0 0 {-v} 0 0 0 0 0 0\n")
+        self.write("bodies", f"1\n1 {mass} 0 0 1 0.7 {moment} 0.6 0 0 0 0 0 {-v} 0 0 0 0 0 0\n")
         frame = self.end(spheres_at([(-arm, 0.0, 0.52), (arm, 0.0, 1.48)]), "fix b all large/body plane 0 0 0 0 0 1 contact LAW",
                          move="rigid/small/symplectic molecule start half infile bodies", gravity="", steps=6000, dt=5e-6,
                          law="hooke 2e6 0")

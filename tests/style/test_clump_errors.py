@@ -1,12 +1,9 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """Every refusal of fix rigid/small/symplectic: its text, and the word it points at, on 1 and 2 ranks."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, marked_word, ranks_of_refusal
 
 FIX = "fix move pairs rigid/small/symplectic molecule"
@@ -104,8 +101,7 @@ Diameters
 class ClumpErrors(SceneCase):
 
     def setUp(self):
-        with open(self.path("pebble.mol"), "w") as file:
-            file.write(PEBBLE)
+        self.write("pebble.mol", PEBBLE)
 
     def refuse(self, np, commands, expected, run="run 1", style="sphere", size="0.8", map="map array"):
         log = self.run_lammps(BOX.format(style=style, size=size, map=map) + commands + "\n" + run, np=np,

@@ -5,11 +5,10 @@ bits on any number of ranks and threads, wherever a step is made, and through re
 
 import math
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, max_difference, read_dump, thermo
+from saved_scenes import CLUMP
+from talus_testing import SceneCase, head, max_difference, read_dump, thermo
 from tossed_clumps import write_clumps
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
@@ -18,14 +17,7 @@ RECORDS = "steps without output              in the records"
 PAIR = "pair_style gran/hertz/history@ 20000 NULL 50 NULL 0.5 1\npair_coeff * *"
 WALL = "wall/gran@ hertz/history 20000 NULL 50 NULL 0.5 1"
 
-SPHERES = """
-units lj
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-"""
-HEAD = SPHERES + "{before}\nboundary p p f\n"
+HEAD = head(boundary="p p f") + "{before}\n"
 REST = """
 group single type 2
 group clumps type 1
@@ -133,8 +125,7 @@ class Clumps(ClumpCase):
                     found = []
                     for style, expect in ("run_style verlet/stock", None), ("run_style verlet", RECORDS):
                         frames = self.simulate(move, np, style=f"{reading}comm_proxy yes\n{style}", expect=expect, **rest)
-                        with open(self.path("said")) as file:
-                            found.append((frames, file.read()))
+                        found.append((frames, self.read("said")))
                     for a, b in zip(found[0][0], found[1][0], strict=True):
                         self.assert_same_bits(a, b)
                     self.assertEqual(found[0][1], found[1][1])
@@ -221,7 +212,7 @@ fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential m
                     self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
 
 
-MIXED = SPHERES + """boundary p p f
+MIXED = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group shapes type 2
@@ -257,15 +248,14 @@ class ClumpsAndShapes(ClumpCase):
         for frame in frames[1:]:
             self.assert_same_bits(frame, frames[0], MOTION)
         self.assertEqual(len(set(frames[0].column("mol").values())), 23)    # and 0 of the boxes
-        with open(self.path("local.1")) as file:
-            rows = [[float(w) for w in line.split()] for line in file.read().split("c_b[9]")[-1].splitlines() if line.strip()]
+        rows = [[float(w) for w in line.split()] for line in self.read("local.1").split("c_b[9]")[-1].splitlines() if line.strip()]
         self.assertEqual(len(rows), 22)
         for row in rows:    # the mass of three spheres of density 1, by their diameters, and a quaternion
             self.assertAlmostEqual(row[2], math.pi / 6.0 * (1.0 + 0.9**3 + 0.8**3), delta=1e-5)
             self.assertAlmostEqual(sum(q * q for q in row[6:10]), 1.0, delta=1e-4)
 
 
-FREE = SPHERES + """boundary p p p
+FREE = head(boundary="p p p") + """
 fix prop all property/atom mol ghost yes
 read_data grains fix prop NULL Molecules
 group which molecule 1
@@ -302,7 +292,7 @@ class FreeClump(ClumpCase):
                 self.assertAlmostEqual(row[k], rows[0][k], delta=1e-12)
 
 
-ONE = SPHERES + """boundary p p f
+ONE = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 9
 create_box 1 box
@@ -325,8 +315,7 @@ write_dump all custom last id {all} modify format float %a sort id
 class OneSphere(SceneCase):
 
     def test_a_clump_of_one_sphere_moves_as_that_sphere(self):
-        with open(self.path("ball.mol"), "w") as file:
-            file.write("ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 1.0\n\nMasses\n\n1 0.7\n")
+        self.write("ball.mol", "ball\n\n1 atoms\n\nCoords\n\n1 0 0 0\n\nTypes\n\n1 1\n\nDiameters\n\n1 1.0\n\nMasses\n\n1 0.7\n")
         frames = []
         for move, rigid in (("rigid/small/symplectic molecule mol ball start half gravity 10 vector 0 0 -1", "rigid move"),
                             ("nve/sphere/symplectic start half gravity 10 vector 0 0 -1", "")):
@@ -337,7 +326,7 @@ class OneSphere(SceneCase):
         self.assertGreater(abs(frames[0].column("omegay")[1]), 0.1)    # it has touched the floor
 
 
-POUR = SPHERES + """boundary p p f
+POUR = head(boundary="p p f") + """
 fix prop all property/atom mol ghost yes
 region box block 0 9 0 9 0 14
 create_box 1 box
@@ -360,34 +349,6 @@ run 1800
 {more}
 write_dump all custom last id mol mass {all} modify format float %a sort id
 """
-MOLECULE = """three spheres
-
-3 atoms
-{more}
-Coords
-
-1 0.0 0.0 0.0
-2 0.8 0.1 0.0
-3 0.3 0.7 0.2
-
-Types
-
-1 1
-2 1
-3 1
-
-Diameters
-
-1 1.0
-2 0.9
-3 0.8
-
-Masses
-
-1 0.6
-2 0.4
-3 0.3
-"""
 GIVEN = "1.1 mass\n0.3 0.25 0.05 com\n0.2 0.22 0.3 0.01 0.0 0.02 inertia\n"
 
 
@@ -395,8 +356,7 @@ class PouredClumps(SceneCase):
 
     def pour(self, style, suffix, np=1, more="", given="", before="",
              insert="fix pour all pour 12 0 4711 vol 0.3 50 region slab mol clump rigid move"):
-        with open(self.path("clump.mol"), "w") as file:
-            file.write(MOLECULE.format(more=given))
+        self.write("clump.mol", CLUMP.replace("3 atoms\n", f"3 atoms\n{given}"))
         self.log = self.run_lammps(POUR.format(style=style, suffix=suffix, more=more, before=before, insert=insert, all=" ".join(ALL)), np=np).log
         frame, = read_dump(self.path("last"))
         return frame

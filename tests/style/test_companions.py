@@ -2,11 +2,8 @@
 """gran/penalty together with other commands of the host, each time against the stock style with the same law
 in the same script, on 2 ranks."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from grain_bed import BED, FREEZE, MOVE, STOCK, TALUS, BedCase
 from talus_testing import max_difference, read_dump, read_local, thermo
 

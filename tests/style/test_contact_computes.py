@@ -4,24 +4,18 @@
 data. Forces and torques of the rows are those of the particles; energies by particle are those of penalty/stats."""
 
 import collections
-import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from granular_script import begin
-from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, relative_difference, thermo,
+from talus_testing import (SceneCase, Sphere, marked_word, read_dump, read_local, thermo,
                            write_sphere_data)
 
 LAW = "hertz/material 1e7 0.5 0.3 tangential multistep NULL NULL 0.5 rolling 0.05 spinning 0.05"
 WORDS = ("id1 id2 body part x1 y1 z1 x2 y2 z2 px py pz nx ny nz overlap force fn ft fx fy fz tx ty tz eng "
          "h1 h2 h3 h4 h5 h6 h7 h8 h20").split()
-BED = begin(boundary="{boundary}") + f"""
-pair_coeff * * {LAW}
-neighbor 0.002 bin
-timestep 2e-5
+BED = begin("si", boundary="{boundary}", law=LAW, skin=0.002, dt=2e-5) + f"""
 fix step all nve/sphere/symplectic gravity 9.81 vector 0 0 -1
 fix tank all large/body box 0.025 0.02 0.1 0.05 0.04 0.2 inside contact {LAW}
 fix stone all large/body box 0.025 0.02 0.0 0.012 0.012 0.016 outside contact {LAW}
@@ -243,8 +237,7 @@ class Account(SceneCase):
         for law in "hooke 4000 20 tangential multistep 2e3 5 0.5 slider midpoint", "hertz 5e4 40 tangential multistep NULL NULL 0.5 slider midpoint":
             frames = []
             for asks in "", "compute s all penalty/stats\ncompute lost all dissipation/gran/atom\n":
-                log = self.run_lammps(begin() + f"""
-pair_coeff * * {law} limit_damping
+                log = self.run_lammps(begin("si", law=f"{law} limit_damping") + f"""
 fix step all nve/sphere/symplectic order 2 gravity 10 vector 0 0 -1
 fix floor all large/body plane 0 0 0 0 0 1 contact {law} limit_damping
 neighbor 0.1 bin
@@ -269,8 +262,7 @@ class TwoContacts(SceneCase):
         """One between particles of different size, one with a plane, one with a part of a mesh-like body."""
         spheres = [Sphere((0, 0, 0.49), id=7), Sphere((0, 0.74, 0.49), diameter=0.5, id=3)]
         write_sphere_data(self.path("data"), ((-2, 2),) * 3, spheres)
-        log = self.run_lammps(begin() + f"""
-pair_coeff * * hooke 1000.0 0.0
+        log = self.run_lammps(begin("si", law="hooke 1000.0 0.0") + f"""
 fix step all nve/sphere/symplectic
 fix floor all large/body plane 0 0 0 0 0 1 contact hooke 500.0 0.0
 timestep 1e-5
@@ -295,8 +287,7 @@ run 0""").log
         """Both particles have to be members."""
         spheres = [Sphere((0.99 * n, 0, 0), id=n + 1) for n in range(3)]
         write_sphere_data(self.path("data"), ((-2, 4),) * 3, spheres)
-        self.run_lammps(begin() + """
-pair_coeff * * hooke 1000.0 0.0
+        self.run_lammps(begin("si", law="hooke 1000.0 0.0") + """
 fix step all nve/sphere/symplectic
 group some id 1 2
 compute rows some contact/gran/local id1 id2
@@ -318,14 +309,14 @@ class Refused(SceneCase):
                 ("contact/gran/local id1 foo", "compute contact/gran/local: unknown value 'foo': expected some of id1", "foo"),
                 ("contact/gran/atom foo", "compute contact/gran/atom: surplus word 'foo'", "foo"),
                 ("dissipation/gran/atom foo", "compute dissipation/gran/atom: surplus word 'foo'", "foo")):
-            result = self.run_lammps(f"{begin()}{pair}compute c all {words}", expect_error=True)
+            result = self.run_lammps(f"{begin('si')}{pair}compute c all {words}", expect_error=True)
             self.assertIn(message, result.log)
             if mark:
                 self.assertEqual(marked_word(result.log), mark)
         for style in "contact/gran/local id1", "contact/gran/atom", "dissipation/gran/atom":
-            result = self.run_lammps(f"{begin()}pair_style none\ncompute c all {style}\nrun 0", expect_error=True)
+            result = self.run_lammps(f"{begin('si')}pair_style none\ncompute c all {style}\nrun 0", expect_error=True)
             self.assertRegex(result.log, re.escape(style.split()[0]) + " requires a pair style of Talus")
-        result = self.run_lammps(f"{begin()}{pair}compute c all dissipation/gran/atom\nunfix c_DISSIPATION_STORE\nrun 0",
+        result = self.run_lammps(f"{begin('si')}{pair}compute c all dissipation/gran/atom\nunfix c_DISSIPATION_STORE\nrun 0",
                                  expect_error=True)
         self.assertIn("its internal fix c_DISSIPATION_STORE has been deleted: remove the unfix command", result.log)
 

@@ -2,13 +2,10 @@
 """Warnings about deep overlaps and large moves: where they are due, once per run, and not elsewhere."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, write_sphere_data
 
 OVERLAP = r"WARNING: Pair style gran/penalty: particles (\d+) and (\d+) overlap by (\S+) of the smaller radius at step"
 MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its radius in a time step at step"
@@ -16,17 +13,7 @@ MOVE = r"WARNING: Pair style gran/penalty: particle (\d+) moves by (\S+) of its 
 BODY_OVERLAP = r"WARNING: Fix large/body (\S+): particle (\d+) overlaps the body by (\S+) of its radius at step"
 BODY_MOVE = r"WARNING: Fix large/body (\S+): particle (\d+) and the body move past each other by (\S+) of its radius"
 
-SCRIPT = """
-units si
-boundary {boundary}
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-read_data data
-neighbor 0.3 bin
-pair_style gran/penalty
-pair_coeff * * hooke 1000.0 0.0
+SCRIPT = begin("si", "{boundary}", law="hooke 1000.0 0.0", skin=0.3) + """
 fix move all nve/sphere/symplectic
 timestep {dt}
 thermo 1000

@@ -4,16 +4,13 @@ go, time steps, streams. What is from LAMMPS is compared with its own styles in 
 
 import dataclasses
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from doc_tables import commands, page, rows
 from liggghts_reference import Law, Sphere, collide, heat_flow
-from talus_testing import SceneCase, read_dump, thermo
+from talus_testing import SceneCase, head, read_dump, thermo
 
 ROWS = [(commands(theirs), commands(ours)) for theirs, ours, *_ in rows(page("from_liggghts.md", "from_liggghts_walls.md"), "LIGGGHTS")]
 RADIUS, DENSITY, GAP, DT = 0.0015, 2500.0, 1e-7, 5e-7
@@ -22,13 +19,7 @@ ONE_TYPE = Law((5e6, 5e6), (0.45, 0.45), 0.95, 0.05)
 PAIRS = {(1, 1): Law((5e6, 5e6), (0.45, 0.45), 0.5, 0.2), (1, 2): Law((5e6, 1e8), (0.45, 0.3), 0.9, 0.8),
          (2, 2): Law((1e8, 1e8), (0.3, 0.3), 0.7, 0.4)}
 
-BEGIN = """
-units si
-atom_style sphere
-atom_modify map yes
-comm_modify vel yes
-newton off
-boundary f f f
+BEGIN = head("si") + """
 region box block -0.02 0.02 -0.02 0.02 -0.02 0.02
 create_box 2 box
 neighbor 0.0003 bin

@@ -6,13 +6,11 @@ motion, but for the half step by which integrators differ."""
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
 from doc_tables import blocks, commands, page, rows
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, thermo, write_sphere_data
 
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
@@ -24,16 +22,9 @@ SCENE = {
     "fix fall": ["fix fall all gravity 9.81 vector 0 0 -1"],
     "fix floor": ["fix floor all wall/gran hooke 1e4 NULL 20 10 0.5 1 zplane 0 NULL"],
 }
-HEAD = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+HEAD = head() + """
 read_data grains
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.0005
 """
 TAIL = """

@@ -3,28 +3,16 @@
 energy in order, and not elsewhere."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import body_meshes
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 ELASTIC = r"WARNING: Pair style gran/penalty: no contact has damping or friction: at this time step, (\S+) of the critical one, " \
           r"impacts of (.*) gain or lose some energy by chance, which adds up over many: use at most (\S+) of it"
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-read_data data
-neighbor 0.1 bin
-pair_style gran/penalty
+SCRIPT = begin("si", skin=0.1) + """
 {pairs}
 fix move all nve/sphere/symplectic start {start}
 {more}

@@ -3,13 +3,10 @@
 """Every refusal of pair_style gran/penalty, its pair_coeff, fix large/body and their internal fix: text,
 word that is marked, on 1 and 2 ranks, without a hang."""
 
-import os
 import re
 import resource
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
 
 BOX = """

@@ -4,13 +4,10 @@
 threads and after a restart, also with a large body; the balance of energy."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 
 # pair granular, gran/penalty if it has other words
 LAWS = [
@@ -35,13 +32,7 @@ LAWS = [
     ("jkr 1e5 25.0 0.3 20.0 damping mass_velocity tangential linear_history 8e3 0.5 0.4",),
 ]
 STEP, STEPS = 1e-3, 120    # most impacts are over then, or about to be
-ONE_STEP = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+ONE_STEP = head("si") + """
 read_data pairs
 pair_style {style}
 pair_coeff * * {words}
@@ -114,14 +105,7 @@ class LikePairGranular(SceneCase):
             print(" ".join(f"{value:8.1e}" for value in found), words[0])
 
 
-SCENE = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+SCENE = head("si")
 PHYSICS = """
 neighbor 0.1 bin
 timestep 2e-4

@@ -4,20 +4,12 @@
 import os
 import random
 import struct
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import restart_file
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, write_sphere_data
 
-START = """
-units lj
-boundary p f f
-atom_style sphere
-newton off
-comm_modify vel yes
-"""
+START = head(boundary="p f f", map=None)
 PAIR = """
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5

@@ -9,10 +9,8 @@ file, those of velocities also to that of the surfaces: a sphere that turns on a
 import glob
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, read_dump
 
 DIRECTORY = os.path.join(os.environ.get("TALUS_LAMMPS_SOURCE", ""), "unittest", "granular", "tests")

@@ -2,12 +2,9 @@
 # ctest: cost=30
 """Every refusal of fix nve/sphere/symplectic: its text, the word it points at, on 1 and 2 ranks."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, marked_word
 
 FIX = "fix step all nve/sphere/symplectic"

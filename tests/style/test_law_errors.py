@@ -5,21 +5,13 @@ that go with them: its text and the word it points at, on 1 and 2 ranks."""
 
 import concurrent.futures
 import math
-import os
 import re
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, marked_word, ranks_of_refusal, thermo
+from talus_testing import SceneCase, head, marked_word, ranks_of_refusal, thermo
 
-BOX = """
-units si
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+BOX = head("si", "p p p") + """
 region box block -4 4 -4 4 -4 4
 create_box 2 box
 create_atoms 1 single -2 0 0

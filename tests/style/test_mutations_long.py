@@ -3,10 +3,8 @@
 """test_mutations.py with other seeds and many times as many runs. TALUS_SEED chooses another one."""
 
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_mutations
 
 

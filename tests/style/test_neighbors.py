@@ -6,11 +6,9 @@ As one of several parts of pair_style hybrid it takes the lists of LAMMPS.  What
 
 import os
 import re
-import sys
 import unittest
 from unittest import mock
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from tossed_grains import LAW, PAIR, TossedCase
 
 OWN = "Talus gran/penalty: finds neighbors itself"

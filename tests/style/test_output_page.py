@@ -4,15 +4,11 @@
 past and turns, of which all numbers are known."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import test_conversion_pages as pages
-from talus_testing import SceneCase, Sphere, read_local, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_local, thermo, write_sphere_data
 
 STIFFNESS, GRAVITY, RADIUS = 1e4, 10.0, 0.5
 MASS = math.pi / 6
@@ -26,19 +22,7 @@ STRESS = WEIGHT * DISTANCE / VOLUME, 2 * WEIGHT * RADIUS / VOLUME    # zz, of bo
 FLOW = MASS * SPEED**2 / VOLUME
 ELASTIC = 0.5 * STIFFNESS * (DEEP**2 + SHALLOW**2)
 
-SCENE = f"""
-variable law string "hooke {STIFFNESS} 20"
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-neighbor 0.2 bin
-timestep 1e-6
-pair_style gran/penalty
-pair_coeff * * ${{law}}
+SCENE = f'\nvariable law string "hooke {STIFFNESS} 20"' + begin(read="read_data grains", law="${law}", skin=0.2, dt=1e-6) + f"""
 group resting id 1 2
 fix move all nve/sphere/symplectic
 fix fall resting gravity/talus {GRAVITY} vector 0 0 -1

@@ -2,22 +2,13 @@
 """run_style verlet/proxy: neighbor lists are made in time whatever the distance of the checks, and a warning names what
 was in the way if not."""
 
-import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, write_sphere_data
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+SCRIPT = head("si") + """
 read_data data
 neighbor 0.2 bin
 neigh_modify {checks}
@@ -31,13 +22,7 @@ dump_modify all format float %a
 {run}
 """
 # a bed at rest, whose grains are apart by less than they move in the first step
-BED = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
+BED = head() + """
 read_data data
 neighbor {skin} bin
 neigh_modify every 1 delay 0 check {check}

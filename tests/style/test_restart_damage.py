@@ -4,24 +4,14 @@
 are): one message, or the trajectory of the file as it was; never a crash, a hang or another trajectory."""
 
 import concurrent.futures
-import os
 import random
 import struct
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import restart_file
-from talus_testing import SceneCase, Sphere, read_dump, run_lammps, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, run_lammps, write_sphere_data
 
-HEAD = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-"""
+HEAD = head()
 LAW = "hertz 4000.0 40.0 tangential multistep NULL NULL 0.5"
 END = "run 3\nwrite_dump all custom {} id x y z vx vy vz omegax omegay omegaz fx fy fz modify format float %a\n"
 DAMAGED = "the restart file is damaged"

@@ -2,11 +2,8 @@
 # ctest: label=slow timeout=3600
 """test_restart_damage.py with many times as many bits."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import test_restart_damage
 
 

@@ -4,19 +4,11 @@
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, marked_word, ranks_of_refusal, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, marked_word, ranks_of_refusal, write_sphere_data
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 group balls type 1
 group dice type 2
@@ -126,8 +118,7 @@ class ShapeErrors(SceneCase):
     def test_particles_deleted_before_the_fix(self):
         """What a restart file holds for a fix waits in the order of the particles of the file."""
         hooke = SCENE.format(commands=f"{FIX}\nrun 1\nwrite_restart state", pair="hooke 1e4 10")
-        head = "units lj\nboundary f f f\nnewton off\natom_style sphere\natom_modify map yes\ncomm_modify vel yes\n"
-        again = head + "read_restart state\n{}pair_style gran/penalty\npair_coeff * * hooke 1e4 10\n" + f"{FIX}\nrun 1\n"
+        again = head() + "read_restart state\n{}pair_style gran/penalty\npair_coeff * * hooke 1e4 10\n" + f"{FIX}\nrun 1\n"
         remember = "fix floor all large/body plane 0 0 -9  0 0 1 contact hooke 1e4 10 tangential multistep NULL NULL 0.5\n"
         self.run_lammps(hooke)
         self.run_lammps(again.format(""))

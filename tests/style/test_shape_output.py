@@ -3,21 +3,12 @@
 """What can be seen of convex particles: dump vtk/gran, dump image, fix_modify orient, what the log says of other commands."""
 
 import math
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 from vtk_files import read_part, read_series
 
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCENE = head() + """
 read_data grains
 group balls type 1
 neighbor 0.2 bin

@@ -4,25 +4,15 @@
 """compute penalty/stats and compute timestep/gran of pair styles of LAMMPS that are accelerated by the suffix."""
 
 import math
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, thermo, write_sphere_data
 
-SCENE = """
-units si
-boundary f f f
-newton {newton}
-atom_style sphere
-atom_modify map yes
-comm_modify vel yes
+SCENE = head("si", newton="{newton}") + """
 read_data data
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 2e-5
 fix step all nve/sphere/symplectic
 compute s all penalty/stats

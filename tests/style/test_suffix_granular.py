@@ -10,12 +10,10 @@ import itertools
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import granular_models
-from talus_testing import SceneCase, Sphere, max_difference, part_of, read_dump, read_local, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, head, max_difference, part_of, read_dump, read_local, thermo, write_sphere_data
 
 TOLERANCE = 5e-13
 VECTORS = ("fx", "fy", "fz"), ("tqx", "tqy", "tqz")
@@ -32,7 +30,6 @@ read_data data
 pair_style granular
 {coeffs}
 neighbor {skin} bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 group some id 1:1000:2
 fix drive some move wiggle {amplitude} 0.7
@@ -96,12 +93,7 @@ class Case(SceneCase):
         self.assertRegex(log, r"pair granular +accelerated")
 
 
-NO_PARTICLES = """
-units lj
-boundary f f f
-newton off
-atom_style sphere
-comm_modify vel yes
+NO_PARTICLES = head(map=None) + """
 region box block 0 8 0 8 0 8
 create_box 4 box
 create_atoms 2 single 4 4 4
@@ -307,7 +299,6 @@ atom_modify sort 0 0.0
 pair_style granular
 {coeffs}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere
 {more}
@@ -604,8 +595,7 @@ dump_modify pairs format float %.17g
             for style in "run_style verlet/stock\n", "run_style verlet\n":
                 text = self.heated(words, more=wall + each + "comm_proxy yes\n" + style, run="run 200", every=50)
                 log = self.run_suffix(True, "ours", text, np=np).log
-                with open(self.path("ours/means")) as file:
-                    found.append((read_dump(self.path("ours/heat")) + read_dump(self.path("ours/state")), file.read()))
+                found.append((read_dump(self.path("ours/heat")) + read_dump(self.path("ours/state")), self.read("ours/means")))
             self.assertRegex(log, "steps without output +in the records")
             for a, b in zip(found[0][0], found[1][0], strict=True):
                 self.assert_same_bits(a, b)

@@ -1,20 +1,11 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """fix gravity with the suffix beside fix rigid/small: where the order in the script matters in LAMMPS, the log says what differs."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, read_dump
+from talus_testing import SceneCase, head, read_dump
 
-SCRIPT = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+SCRIPT = head() + """
 fix body all property/atom mol ghost yes
 region box block -5 5 -5 5 -5 5
 create_box 1 box

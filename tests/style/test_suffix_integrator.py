@@ -5,10 +5,8 @@ bits wherever a step is made: in Talus' records or in the arrays of LAMMPS."""
 
 import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
@@ -33,7 +31,6 @@ group loose subtract all base
 pair_style gran/penalty
 pair_coeff * * {law}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 {fixes}
 {floor}

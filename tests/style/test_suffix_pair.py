@@ -6,11 +6,9 @@
 import itertools
 import os
 import random
-import sys
 import unittest
 from unittest import mock
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import (SceneCase, Sphere, max_difference, read_dump, read_local, thermo,
                            write_sphere_data)
 
@@ -38,7 +36,6 @@ read_data {data}
 {before}
 {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere{disc}
 {more}
@@ -326,7 +323,6 @@ class TestRestart(Case):
 newton on
 read_restart {file}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere
 thermo 20
 dump state all custom 20 state id xu yu zu vx vy vz fx fy fz tqx tqy tqz

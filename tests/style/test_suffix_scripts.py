@@ -5,11 +5,9 @@
 
 import os
 import random
-import sys
 import unittest
 from unittest import mock
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
 BOX = ((0, 6), (0, 6), (-1, 12))

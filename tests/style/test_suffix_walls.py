@@ -10,32 +10,21 @@ Where a wall is, is computed in two places, of which that of LAMMPS may fuse mul
 are powers of two, and cylinders are compared up to rounding.  Collisions of grains make rounding larger, each scene by
 another factor: how much, tells the stock wall itself with all grains displaced by the last digits of their places."""
 
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, max_difference, read_dump, write_sphere_data
+from talus_testing import SceneCase, head, max_difference, read_dump, write_sphere_data
 from tossed_grains import tossed_grains
 
 RECORDS = "steps without output are made in Talus' own records|steps without output +in the records"
 HOST = "every step goes through the arrays of LAMMPS: |through the arrays of LAMMPS: "
-BEGIN = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-"""
+BEGIN = head()
 SCENE = BEGIN + """
 {read}
 group some id <= 100
 pair_style gran/penalty
 pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 10.0 vector 0.3 0.1 -1
 {walls}

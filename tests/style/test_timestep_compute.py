@@ -3,20 +3,15 @@
 """compute timestep/gran against its formulas, and the warning of pair gran/penalty about large time steps."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from granular_script import begin
-from talus_testing import SceneCase, Sphere, thermo, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, thermo, write_sphere_data
 
-SCRIPT = begin(units="{units}") + """
+SCRIPT = begin("{units}") + """
 {pairs}
 {more}
 neighbor 0.2 bin
-neigh_modify every 1 delay 0 check yes
 fix step all nve/sphere/symplectic
 timestep {dt!r}
 {group}
@@ -59,8 +54,7 @@ def hertz_time(types, young, speed):
     return 2.87 * (m * m / (r * young**2 * speed))**0.2
 
 
-CLUMPS = begin(units="si") + """
-pair_coeff * * {law}
+CLUMPS = begin("si", law="{law}") + """
 {body}
 fix prop all property/atom mol ghost yes
 set atom 1*2 mol 1

@@ -2,29 +2,17 @@
 """Warnings about friction without damping: where impacts gain energy, and not elsewhere."""
 
 import math
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 STEP = r"WARNING: Pair style gran/penalty: contacts of (.*) have a coefficient of friction of (\S+) and next to no damping: " \
        r"at this time step, (\S+) of the critical one,"
 SPRING = r"WARNING: Pair style gran/penalty: contacts of (.*) have a coefficient of friction of ([^ ,]+)(?:, rolling resistance of " \
          r"(\S+))? and next to no damping: impacts gain energy at any time step"
 
-SCRIPT = """
-units si
-boundary f f f
-atom_style sphere
-atom_modify map array
-newton off
-comm_modify vel yes
-read_data data
-neighbor 0.1 bin
-pair_style gran/penalty
+SCRIPT = begin("si", skin=0.1) + """
 {pairs}
 fix move all nve/sphere/symplectic
 {more}

@@ -2,11 +2,8 @@
 """gran/penalty with coefficients by type, under hybrid styles, with the omp suffix, in two dimensions, and
 with commands between two runs: against the stock style with the same law, on 2 ranks."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 from grain_bed import BED, FREEZE, MOTION, STOCK, TALUS, BedCase, grains
 from talus_testing import Sphere, write_sphere_data
 

@@ -5,11 +5,8 @@ forces and torques of rows that add up to those of the particles, for all that L
 move."""
 
 import collections
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
 import test_suffix_walls as walls_of_lammps
 from talus_testing import SceneCase, read_dump, read_local, thermo, write_sphere_data
 from tossed_grains import tossed_grains
@@ -23,7 +20,6 @@ read_data grains
 pair_style gran/penalty
 pair_coeff * * {pair}
 neighbor 0.1 bin
-neigh_modify every 1 delay 0 check yes
 timestep 0.001
 fix step all nve/sphere/symplectic gravity 10.0 vector 0.3 0.1 -1
 {walls}
@@ -78,8 +74,7 @@ class WallContacts(SceneCase):
         """Of the last step: rows, those of thermo, the grid."""
         key = lambda row: (row["id1"], row["id2"], row["body"], row["nx"], row["ny"])
         rows = [[row[word] for word in WORDS if word != "part"] for row in sorted(self.rows[-1], key=key)]
-        with open(self.path("field")) as file:
-            text = file.read().rsplit("ITEM: GRID CELLS", 1)[1].splitlines()[1:]
+        text = self.read("field").rsplit("ITEM: GRID CELLS", 1)[1].splitlines()[1:]
         grid = [[float(word) for word in line.split()] for line in text]
         return rows, [list(row.values()) for row in self.table], grid
 

@@ -6,13 +6,10 @@ Which grains may touch is found eight at a time; grains at random places, each o
 pushed by the stock fix and by ours. Those that are left out by mistake have no force, or keep a history that should be gone.
 Sides, open faces, motions, and unions and intersections."""
 
-import os
 import random
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
-from talus_testing import SceneCase, Sphere, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
 
 STIFFNESS = 100.0    # low: many grains begin deep in a wall
 HOOKE = f"hooke/history {STIFFNESS} NULL 5.0 NULL 0.5 0"
@@ -56,16 +53,7 @@ NESTED = "region n{k} union 2 a{k} c{k}\nregion w{k} intersect 2 n{k} b{k}\n"
 
 GRAINS = 400    # that know a region
 NEXT_TO_THE_SURFACE = 3    # of them at most
-SCENE = """
-units lj
-boundary f f f
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
-read_data grains
-pair_style gran/penalty
-pair_coeff * * hertz 4000.0 40.0 tangential multistep NULL NULL 0.5
+SCENE = begin(read="read_data grains", law="hertz 4000.0 40.0 tangential multistep NULL NULL 0.5") + """
 neigh_modify exclude group all all every 1 {check}
 neighbor 0.3 bin
 timestep 0.001

@@ -70,21 +70,20 @@ class BodyContactsTest : public testing::TestWithParam<int> {
 
   /// The contact of particle i as the reference takes it: with a resting, infinitely large and
   /// heavy body.
-  Contact contact_of(int i, const SurfaceContact &surface) const
+  reference::Contact contact_of(int i, const SurfaceContact &surface) const
   {
-    Contact c;
-    c.normal = {surface.normal.x, surface.normal.y, surface.normal.z};
+    reference::Contact c;
     c.overlap = surface.overlap;
     c.radius = {p.radius[i], infinity};
     c.mass = {p.mass_override[i] > 0.0 ? p.mass_override[i] : p.mass[i], infinity};
-    c.velocity[0] = p.v[i];
-    c.omega[0] = p.omega[i];
+    c.velocity[0] = reference::widen(p.v[i]);
+    c.omega[0] = reference::widen(p.omega[i]);
     return c;
   }
 
   bool touches(int i, SurfaceContact &surface) const
   {
-    return shape->touches({p.x[i][0], p.x[i][1], p.x[i][2]}, p.radius[i], surface);
+    return shape->touches(talus(p.x[i]), p.radius[i], surface);
   }
 
   RandomSource random{21};
@@ -115,13 +114,11 @@ TEST_P(BodyContactsTest, AgreesWithTheSlowReferenceAndBalances)
       const bool in_contact = touches(i, surface);
       Outcome expected;
       if (in_contact) {
-        Contact c = contact_of(i, surface);
-        c.history = displacement[i];
+        reference::Contact c = contact_of(i, surface);
         c.sliding = sliding[i];
         const int row = laws.row(p.type[i], p.type[i]);
-        const ContactLaw &pair_law = laws.law(row);
-        expected = evaluate(c, named::named_law(pair_law),
-                            named::numbers_of(pair_law, laws.coefficients(row)), dt, advance);
+        expected = evaluate(c, plain(surface.normal), displacement[i], laws.law(row),
+                            laws.coefficients(row), dt, advance);
         touching++;
       }
       const double error = 1e-12 * expected.force_scale;

@@ -15,21 +15,13 @@
 #include <cmath>
 
 using namespace Talus;
-using slow::Packing;
+using slow::Packing, slow::plain, slow::talus;
 
 namespace {
 
 using V = Vector3<double>;
 constexpr double dt = 1e-3, skin = 0.3;
 
-V talus(const slow::Vector &a)
-{
-  return {a[0], a[1], a[2]};
-}
-slow::Vector plain(const V &a)
-{
-  return {a.x, a.y, a.z};
-}
 LawTable resisting_law()
 {
   LawTable table;

@@ -27,9 +27,10 @@ struct Scene {
 std::vector<Scene> scenes()
 {
   std::vector<Scene> list{{"mixed", mixed_laws()}};
-  for (named::NamedLaw law : all_laws())
+  for (named::NamedLaw law : reference::stock_laws())
     for (bool spread : {false, true})
-      list.push_back({title(law) + (spread ? " spread" : " uniform"), single_law(law, spread)});
+      list.push_back(
+          {reference::title(law) + (spread ? " spread" : " uniform"), single_law(law, spread)});
   return list;
 }
 

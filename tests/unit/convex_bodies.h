@@ -7,6 +7,7 @@
 
 #include "random_source.h"
 #include "shape/convex/convex_shape.h"
+#include "shape/shape_contact.h"
 
 #include <array>
 #include <cmath>
@@ -29,6 +30,27 @@ inline Points dodecahedron_corners()
       corners.push_back({s * a * phi, 0.0, s * b / phi});
     }
   return corners;
+}
+
+inline Eigen::Quaterniond turned(double angle, double x, double y, double z)
+{
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d(x, y, z).normalized()));
+}
+inline const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
+
+/// Force and torque about the origin on the first shape, with springs of stiffness 1.
+struct Load {
+  Vector3<double> force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
+};
+inline Load load_of(const ShapeContacts &contacts)
+{
+  Load load;
+  for (const ShapeContact &c : contacts.points) {
+    const Vector3<double> f = (c.weight * c.overlap) * c.normal;
+    load.force = load.force + f;
+    load.torque = load.torque + cross(c.position, f);
+  }
+  return load;
 }
 
 class RandomBodies : public RandomSource {

@@ -20,13 +20,6 @@ namespace {
 using Vector = Vector3<double>;
 constexpr double pi = 3.14159265358979323846;
 
-Eigen::Quaterniond turned(double angle, double x, double y, double z)
-{
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d(x, y, z).normalized()));
-}
-
-const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
-
 struct Pair {
   const ConvexShape &a, &b;
   ShapeContacts contacts;
@@ -43,21 +36,6 @@ struct Pair {
     return sum;
   }
 };
-
-/// Force and torque about the origin on a, with springs of stiffness 1.
-struct Load {
-  Vector force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
-};
-Load load_of(const ShapeContacts &contacts)
-{
-  Load load;
-  for (const ShapeContact &c : contacts.points) {
-    const Vector f = (c.weight * c.overlap) * c.normal;
-    load.force = load.force + f;
-    load.torque = load.torque + cross(c.position, f);
-  }
-  return load;
-}
 
 }    // namespace
 

@@ -19,12 +19,6 @@ namespace {
 
 using Vector = Vector3<double>;
 
-Eigen::Quaterniond turned(double angle, double x, double y, double z)
-{
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d(x, y, z).normalized()));
-}
-const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
-
 struct Mesh {
   MeshShape shape;
   MeshFeatures features;
@@ -90,19 +84,6 @@ std::vector<Triangle> box_of(Vector half, int cells)
   return triangles;
 }
 
-struct Load {
-  Vector force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
-};
-Load load_of(const ShapeContacts &contacts)
-{
-  Load load;
-  for (const ShapeContact &c : contacts.points) {
-    const Vector f = (c.weight * c.overlap) * c.normal;
-    load.force = load.force + f;
-    load.torque = load.torque + cross(c.position, f);
-  }
-  return load;
-}
 double difference(const Load &a, const Load &b)
 {
   return std::max(length(a.force - b.force), length(a.torque - b.torque));

@@ -18,19 +18,6 @@ namespace {
 
 using Vector = Vector3<double>;
 
-Eigen::Quaterniond turned(double angle, double x, double y, double z)
-{
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d(x, y, z).normalized()));
-}
-const Eigen::Quaterniond straight = Eigen::Quaterniond::Identity();
-
-Vector force_of(const ShapeContacts &contacts)
-{
-  Vector force{0.0, 0.0, 0.0};
-  for (const ShapeContact &c : contacts.points) force = force + (c.weight * c.overlap) * c.normal;
-  return force;
-}
-
 }    // namespace
 
 TEST(ConvexRound, FaceEdgeAndCornerOnALyingCylinder)
@@ -52,7 +39,7 @@ TEST(ConvexRound, FaceEdgeAndCornerOnALyingCylinder)
     }
     // the cylinder is shorter than the face: two points of its rims
     ASSERT_TRUE(collide_round(cube, Pose({0, 0.1, flat}, straight), stump, contacts));
-    EXPECT_NEAR(force_of(contacts).z, 0.02, 1e-9);
+    EXPECT_NEAR(load_of(contacts).force.z, 0.02, 1e-9);
     // an edge along the axis: two corners; an edge across: one point
     const double edge = 2.0 + std::sqrt(0.5) + radius - 0.01;
     ASSERT_TRUE(
@@ -76,7 +63,7 @@ TEST(ConvexRound, CapAndTip)
     const Pose pose({0.1, 0.05, 0.5 + radius - 0.01}, straight);
     ASSERT_TRUE(collide_round(cube, pose, column, contacts));
     EXPECT_EQ(contacts.points.size(), 12U);
-    EXPECT_NEAR(force_of(contacts).z, 0.12, 1e-12);
+    EXPECT_NEAR(load_of(contacts).force.z, 0.12, 1e-12);
     ASSERT_TRUE(collide_round(cube, pose, spike, contacts));
     ASSERT_EQ(contacts.points.size(), 1U);
     EXPECT_NEAR(contacts.points[0].overlap, 0.01, 1e-12);
@@ -111,7 +98,7 @@ TEST(ConvexRound, ForcesOfRoundedBodiesAreContinuousAlongRandomPaths)
                     body, contacts);
       const bool deep = std::any_of(contacts.points.begin(), contacts.points.end(),
                                     [](const ShapeContact &c) { return c.overlap >= 0.2; });
-      const Vector now = force_of(contacts);
+      const Vector now = load_of(contacts).force;
       if (known && !deep) largest = std::max(largest, length(now - before));
       touching += !contacts.points.empty();
       before = now;

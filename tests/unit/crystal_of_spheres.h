@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace Reference {
+namespace second_order {
 
 inline std::vector<Particle> crystal_of_spheres()
 {
@@ -21,13 +21,9 @@ inline std::vector<Particle> crystal_of_spheres()
   for (int cell = 0; cell < 27; cell++)
     for (const Vec &site : basis) {
       const Vec corner{cell / 9 * 1.0, cell / 3 % 3 * 1.0, cell % 3 * 1.0};
-      const Vec spin{std::sin(1.0 + 37.0 * cell + site.x), std::sin(2.0 + 91.0 * cell + site.y),
-                     std::sin(3.0 + 17.0 * cell + site.z)};
-      Particle p;
-      p.x = edge * (corner + site);
-      p.w = 0.02 * spin;
-      p.mass = 3.14159265358979323846 / 6.0;
-      particles.push_back(p);
+      const Vec spin{std::sin(1.0 + 37.0 * cell + site[0]), std::sin(2.0 + 91.0 * cell + site[1]),
+                     std::sin(3.0 + 17.0 * cell + site[2])};
+      particles.push_back(sphere(edge * (corner + site), {}, 0.02 * spin));
     }
   return particles;
 }
@@ -36,10 +32,10 @@ inline std::vector<Particle> crystal_of_spheres()
 inline double spin_of(const std::vector<Particle> &particles)
 {
   double sum = 0.0;
-  for (const Particle &p : particles) sum += dot(p.w, p.w);
+  for (const Particle &p : particles) sum += inner(p.w, p.w);
   return std::sqrt(sum / static_cast<double>(particles.size()));
 }
 
-}    // namespace Reference
+}    // namespace second_order
 
 #endif

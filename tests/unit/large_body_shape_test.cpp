@@ -4,8 +4,7 @@
 
 #include "body/shape/plane.h"
 #include "body/shape/rectangle.h"
-#include "random_source.h"
-#include "slow_contact.h"
+#include "packing.h"
 
 #include <gtest/gtest.h>
 
@@ -14,20 +13,9 @@
 #include <memory>
 
 using namespace Talus;
-using slow::axpy;
-using slow::norm;
-using slow::Vector;
+using slow::axpy, slow::norm, slow::plain, slow::talus, slow::Vector;
 
 namespace {
-
-Vector3<double> talus(const Vector &a)
-{
-  return {a[0], a[1], a[2]};
-}
-Vector plain(const Vector3<double> &a)
-{
-  return {a.x, a.y, a.z};
-}
 
 /// A shape together with the axes it was made from: points are given in these (first, second,
 /// normal).

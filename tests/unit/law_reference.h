@@ -12,6 +12,7 @@
 
 #include "material/contact_spec.h"
 #include "named_law.h"
+#include "reference_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@
 namespace reference {
 
 using Number = long double;
-using Vector = std::array<Number, 3>;
+using Vector = Triple<Number>;
 using named::Adhesion;
 using named::NamedLaw;
 using named::Normal;
@@ -31,31 +32,6 @@ using named::Tangential;
 inline const Number pi = std::acos(Number(-1));
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-
-inline Vector operator+(const Vector &a, const Vector &b)
-{
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline Vector operator*(Number s, const Vector &a)
-{
-  return {s * a[0], s * a[1], s * a[2]};
-}
-inline Vector operator-(const Vector &a, const Vector &b)
-{
-  return a + Number(-1) * b;
-}
-inline Number inner(const Vector &a, const Vector &b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector outer(const Vector &a, const Vector &b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline Number norm(const Vector &a)
-{
-  return std::sqrt(inner(a, a));
-}
 
 /// Composite material of a contact.
 struct Composite {
@@ -191,7 +167,8 @@ inline Stiffness stiffness(Normal law, const Composite &c, Number overlap, Numbe
   }
 }
 
-/// Two bodies in contact, [0] is body 1 of the reference. Infinite masses are allowed.
+/// Two bodies in contact, [0] is body 1 of the reference. Infinite masses are allowed; a body of
+/// infinite radius does not spin.
 struct Contact {
   Vector normal{};    ///< from body 1 to body 2; zero if the centers coincide
   Number overlap = 0;
@@ -293,10 +270,11 @@ inline Outcome evaluate(const Contact &c, NamedLaw law, const Composite &p, Numb
   Vector arm[2], surface[2];
   Number centers = 0, turning = 0;
   for (int b = 0; b < 2; b++) {
-    arm[b] = (b == 0 ? c.radius[b] : -c.radius[b]) * c.normal;
+    const Number length = std::isinf(c.radius[b]) ? Number(0) : c.radius[b];
+    arm[b] = (b == 0 ? length : -length) * c.normal;
     surface[b] = c.velocity[b] + outer(c.omega[b], arm[b]);
     centers += norm(c.velocity[b]);
-    turning += c.radius[b] * norm(c.omega[b]);
+    turning += length * norm(c.omega[b]);
   }
   const Number speeds = centers + turning;
   const Vector relative = surface[1] - surface[0];

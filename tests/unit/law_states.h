@@ -10,6 +10,8 @@
 #include "laws/intersection_radius.h"
 #include "random_source.h"
 
+#include <algorithm>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,30 @@ inline std::vector<NamedLaw> law_pairs()
       if (is_plaincoulomb(law.normal) == (law.tangential == Tangential::TANH)) laws.push_back(law);
     }
   return laws;
+}
+
+/// Those that the stock styles have as well.
+inline std::vector<NamedLaw> stock_laws()
+{
+  std::vector<NamedLaw> laws;
+  for (Normal normal : {Normal::HOOKE, Normal::HERTZ})
+    for (Tangential tangential :
+         {Tangential::NONE, Tangential::DASHPOT, Tangential::ONESTEP, Tangential::MULTISTEP})
+      laws.push_back({normal, tangential});
+  return laws;
+}
+
+/// Of laws that take stiffness and damping as they are given.
+inline Composite composite_of(const named::Numbers &n)
+{
+  Composite c;
+  c.kn = n.kn;
+  c.gn = n.gn;
+  c.kt = n.kt;
+  c.gt = n.gt;
+  c.mu = n.mu;
+  c.limited = n.force_floor == 0.0;
+  return c;
 }
 
 /// The same law with and without resistance, at once or delayed, and adhesion of every kind.
@@ -251,15 +277,13 @@ inline void put(Lanes &lanes, int lane, const Talus::Vector3<double> &v)
   lanes[2][lane] = v.z;
 }
 
-inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
+inline void put(Talus::ContactBatch &batch, int lane, const Talus::ContactState<double> &s,
+                const Talus::HistoryValues &history, int row)
 {
-  const Talus::ContactState<double> s = state_of(c);
-  const Talus::HistoryValues h = remembered(c);
   put(batch.normal, lane, s.normal);
   put(batch.velocity, lane, s.velocity);
   put(batch.surface_rotation, lane, s.surface_rotation);
   put(batch.relative_omega, lane, s.relative_omega);
-  for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = h[n];
   for (Lanes *result : {&batch.force, &batch.torque_per_radius, &batch.twisting_torque})
     put(*result, lane, {0.0, 0.0, 0.0});
   batch.overlap[lane] = s.overlap;
@@ -267,13 +291,58 @@ inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
   batch.inverse_radius[lane] = s.inverse_radius;
   batch.intersection_radius[lane] = s.intersection_radius;
   batch.inverse_distance[lane] = s.inverse_distance;
+  batch.arm_loss[lane] = s.arm_loss;
+  batch.arm_difference[lane] = s.arm_difference;
   batch.coefficients[lane] = row;
+  for (int n = 0; n < Talus::ContactBatch::history_size; n++) batch.history[n][lane] = history[n];
+}
+
+inline void put(Talus::ContactBatch &batch, int lane, const Contact &c, int row)
+{
+  put(batch, lane, state_of(c), remembered(c), row);
 }
 
 /// Three numbers side by side.
 inline Vector lane_of(const double (*v)[Talus::ContactBatch::width], int lane)
 {
   return {v[0][lane], v[1][lane], v[2][lane]};
+}
+
+/// What a kernel makes of a contact.
+struct KernelResult {
+  Triple<double> force, torque_per_radius, twisting_torque;
+  Talus::HistoryValues history;
+};
+
+inline bool same_bits(const KernelResult &a, const KernelResult &b)
+{
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+inline Triple<double> plain(const Talus::Vector3<double> &v)
+{
+  return {v.x, v.y, v.z};
+}
+
+inline KernelResult result_in(const Talus::ContactBatch &batch, int lane)
+{
+  const auto three = [lane](const Lanes &v) {
+    return Triple<double>{v[0][lane], v[1][lane], v[2][lane]};
+  };
+  KernelResult r{
+      three(batch.force), three(batch.torque_per_radius), three(batch.twisting_torque), {}};
+  for (int n = 0; n < Talus::ContactBatch::history_size; n++) r.history[n] = batch.history[n][lane];
+  return r;
+}
+
+/// Of what is in one lane of a batch whose other lanes hold whatever they held before.
+inline KernelResult run(Talus::ContactBatch &batch, Talus::ContactKernel kernel, int lane,
+                        const Talus::ContactCoefficients &row, double dt)
+{
+  const int begin = lane / Talus::lanes * Talus::lanes, end = begin + Talus::lanes;
+  std::fill(batch.coefficients + begin, batch.coefficients + end, 0);
+  kernel(batch, begin, end, &row, dt);
+  return result_in(batch, lane);
 }
 
 }    // namespace reference

@@ -13,20 +13,9 @@
 #include <string>
 #include <vector>
 
-using namespace Reference;
+using namespace second_order;
 
 namespace {
-
-Particle sphere(Vec x, Vec v, Vec w = {}, double radius = 0.5)
-{
-  Particle p;
-  p.x = x;
-  p.v = v;
-  p.w = w;
-  p.radius = radius;
-  p.mass = 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
-  return p;
-}
 
 struct Scene {
   const char *name;
@@ -90,11 +79,6 @@ Scene cluster()
   return scene;
 }
 
-double square(Vec v)
-{
-  return dot(v, v);
-}
-
 using State = std::vector<Particle>;
 
 State result(const Engine::Kernels &law, const Scene &scene, int steps)
@@ -106,8 +90,8 @@ double squared_error(const State &a, const State &b)
 {
   double sum = 0.0;
   for (std::size_t n = 0; n < a.size(); n++)
-    sum +=
-        square(a[n].x - b[n].x) + square(a[n].v - b[n].v) + square(a[n].radius * (a[n].w - b[n].w));
+    for (const Vec &off : {a[n].x - b[n].x, a[n].v - b[n].v, a[n].radius * (a[n].w - b[n].w)})
+      sum += inner(off, off);
   return sum / static_cast<double>(a.size());
 }
 
@@ -241,6 +225,7 @@ const char *const adhesive_laws[] = {
     "dmt 1.5e5 0 0.3 3 tangential dashpot 100 0.3",
     "dmt 1.5e5 0 0.3 3 tangential multistep NULL 100 0.3 slider midpoint",
     "dmt 1.5e5 400 0.3 1 tangential mindlin NULL 0 0.3",
+    "dmt 1.5e5 200 0.3 0.5 tangential linear_nohistory 0.7 0.5",
     "dmt 1.5e5 80 0.3 1 damping mass_velocity tangential mindlin NULL 0 0.3",
     "jkr 1.5e5 0 0.3 3 tangential mindlin NULL 0 0.3",
     "jkr 1.5e5 400 0.3 3 tangential mindlin NULL 0 0.3",

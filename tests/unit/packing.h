@@ -8,9 +8,9 @@
 #define TALUS_TEST_PACKING_H
 
 #include "base/cube_root.h"
+#include "law_states.h"
 #include "material/law_table.h"
 #include "particles/canonical_key.h"
-#include "random_contact.h"
 
 #include <cstdint>
 #include <map>
@@ -19,6 +19,56 @@
 #include <vector>
 
 namespace slow {
+
+using Vector = reference::Triple<double>;
+using reference::infinity;
+using reference::inner;
+using reference::norm;
+using reference::outer;
+using reference::plain;
+
+inline Talus::Vector3<double> talus(const Vector &a)
+{
+  return {a[0], a[1], a[2]};
+}
+
+/// s a + b
+inline Vector axpy(double s, const Vector &a, const Vector &b)
+{
+  using namespace reference;
+  return s * a + b;
+}
+
+/// Of a contact, as body 0 sees it.
+struct Outcome {
+  Vector force{};
+  std::array<Vector, 2> torque{};
+  Vector history{};
+  bool sliding = false, clear_case = true;
+  double force_scale = 0.0, history_scale = 0.0;
+};
+
+/// normal: from body 1 to body 0; history: of body 0. Those of the contact are the other way round.
+inline Outcome evaluate(reference::Contact c, const Vector &normal, const Vector &history,
+                        const Talus::ContactLaw &law, const Talus::ContactCoefficients &row,
+                        double dt, bool advance)
+{
+  const auto narrow = [](double sign, const reference::Vector &v) {
+    const auto part = [&](int d) { return sign * static_cast<double>(v[d]); };
+    return Vector{part(0), part(1), part(2)};
+  };
+  c.normal = reference::widen(axpy(-1.0, normal, {}));
+  c.history = reference::widen(axpy(-1.0, history, {}));
+  const reference::Outcome out = reference::evaluate(
+      c, named::named_law(law), reference::composite_of(named::numbers_of(law, row)), dt, advance);
+  return {narrow(1.0, out.force),
+          {narrow(1.0, out.torque[0]), narrow(1.0, out.torque[1])},
+          narrow(-1.0, out.history),
+          out.sliding,
+          out.clear_case,
+          static_cast<double>(out.force_scale),
+          static_cast<double>(out.history_scale)};
+}
 
 struct Packing {
   std::vector<Vector> x, v, omega;
@@ -133,14 +183,20 @@ class BruteForce {
   {
     contacts.clear();
     for (const Neighbors &n : candidates(p, 0.0, weighted)) {
-      const Contact c = contact_of(p, n.i, n.j);
+      const Vector separation = axpy(-1.0, p.x[n.j], p.x[n.i]);
+      const double distance = norm(separation), reach = p.radius[n.i] + p.radius[n.j];
+      const double overlap = distance > 0.0 ? reach - distance : 0.0;
       const int row = laws.row(p.type[n.i], p.type[n.j]);
-      const Outcome out =
-          evaluate(c, named::named_law(laws.law(row)),
-                   named::numbers_of(laws.law(row), laws.coefficients(row)), dt, advance);
+      reference::Contact c = contact_of(p, n.i, n.j);
+      c.overlap = overlap;
+      const auto known = histories.find({n.i, n.j});
+      const bool is_known = known != histories.end();
+      c.sliding = is_known && known->second.second;
+      const Outcome out = evaluate(c, axpy(distance > 0.0 ? 1.0 / distance : 0.0, separation, {}),
+                                   is_known ? known->second.first : Vector{}, laws.law(row),
+                                   laws.coefficients(row), dt, advance);
       // the overlap is a small difference: what that costs
-      const double condition =
-          c.overlap > 0.0 ? 1.0 + (p.radius[n.i] + p.radius[n.j]) / c.overlap : 1.0;
+      const double condition = overlap > 0.0 ? 1.0 + reach / overlap : 1.0;
       contacts[{n.i, n.j}] = {out, n.weight, out.force_scale * condition};
     }
     if (!advance) return;
@@ -174,22 +230,16 @@ class BruteForce {
  private:
   std::map<std::pair<int, int>, std::pair<Vector, bool>> histories;
 
-  Contact contact_of(const Packing &p, int i, int j)
+  static reference::Contact contact_of(const Packing &p, int i, int j)
   {
-    Contact c;
-    const Vector separation = axpy(-1.0, p.x[j], p.x[i]);
-    const double distance = norm(separation);
-    for (int d = 0; d < 3; d++) c.normal[d] = distance > 0.0 ? separation[d] / distance : 0.0;
-    c.overlap = distance > 0.0 ? p.radius[i] + p.radius[j] - distance : 0.0;
-    const auto mass = [&](int a) {
-      return p.mass_override[a] > 0.0 ? p.mass_override[a] : p.mass[a];
-    };
-    c.radius = {p.radius[i], p.radius[j]};
-    c.mass = {mass(i), mass(j)};
-    c.velocity = {p.v[i], p.v[j]};
-    c.omega = {p.omega[i], p.omega[j]};
-    const auto known = histories.find({i, j});
-    if (known != histories.end()) std::tie(c.history, c.sliding) = known->second;
+    reference::Contact c;
+    int body = 0;
+    for (const int a : {i, j}) {
+      c.radius[body] = p.radius[a];
+      c.mass[body] = p.mass_override[a] > 0.0 ? p.mass_override[a] : p.mass[a];
+      c.velocity[body] = reference::widen(p.v[a]);
+      c.omega[body++] = reference::widen(p.omega[a]);
+    }
     return c;
   }
 };

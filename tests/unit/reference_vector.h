@@ -2,55 +2,42 @@
 //
 // Vectors of the slow programs that engine and laws are compared with.
 
-#ifndef TALUS_TESTS_REFERENCE_VECTOR_H
-#define TALUS_TESTS_REFERENCE_VECTOR_H
+#ifndef TALUS_TEST_REFERENCE_VECTOR_H
+#define TALUS_TEST_REFERENCE_VECTOR_H
 
+#include <array>
 #include <cmath>
+#include <type_traits>
 
-namespace Reference {
+namespace reference {
 
-struct Vec {
-  double x = 0.0, y = 0.0, z = 0.0;
-};
-inline Vec operator+(Vec a, Vec b)
+template <class T> using Triple = std::array<T, 3>;
+
+template <class T> Triple<T> operator+(const Triple<T> &a, const Triple<T> &b)
 {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-inline Vec operator-(Vec a, Vec b)
+template <class T> Triple<T> operator-(const Triple<T> &a, const Triple<T> &b)
 {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-inline Vec operator*(double s, Vec a)
+template <class T> Triple<T> operator*(std::common_type_t<T> s, const Triple<T> &a)
 {
-  return {s * a.x, s * a.y, s * a.z};
+  return {s * a[0], s * a[1], s * a[2]};
 }
-inline double dot(Vec a, Vec b)
+template <class T> T inner(const Triple<T> &a, const Triple<T> &b)
 {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-inline double length(Vec a)
+template <class T> Triple<T> outer(const Triple<T> &a, const Triple<T> &b)
 {
-  return std::sqrt(dot(a, a));
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-inline Vec cross(Vec a, Vec b)
+template <class T> T norm(const Triple<T> &a)
 {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Vec unit(Vec a)
-{
-  const double l = length(a);
-  return l > 0.0 ? (1.0 / l) * a : Vec{};
-}
-inline Vec across(Vec a, Vec n)
-{
-  return a - dot(a, n) * n;
-}
-/// a in the plane normal to n, with its length.
-inline Vec turned(Vec a, Vec n)
-{
-  return length(a) * unit(across(a, n));
+  return std::sqrt(inner(a, a));
 }
 
-}    // namespace Reference
+}    // namespace reference
 
 #endif

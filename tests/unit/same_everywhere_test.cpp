@@ -152,11 +152,11 @@ TEST(SameEverywhere, ImpactsOfGranularLaws)
       {"hertz/material 1e7 0.5 0.3 tangential mindlin NULL 1.0 0.4", true, 0x1fc0566382df21a2U},
   };
   for (const auto &one : cases) {
-    Reference::System start;
+    second_order::System start;
     start.gravity = {0, 0, -9.81};
     start.planes = {{{0, 0, 0}, {0, 0, 1}}};
     for (int n = 0; n < 3; n++) {
-      Reference::Particle p;
+      second_order::Particle p;
       p.x = {0.03 * n, 0.02 * n * n, 0.5 + 0.999 * n};
       p.v = {0.1 * n, -0.2, -0.3};
       p.w = {1.0, 0.3 * n, -0.7};
@@ -166,8 +166,8 @@ TEST(SameEverywhere, ImpactsOfGranularLaws)
     Digest digest;
     const Engine::Kernels kernels(one.words, one.second);
     const Engine::Motion motion(kernels, start, 0.1, 400);
-    for (const Reference::Particle &p : motion.result())
-      for (const Reference::Vec &v : {p.x, p.v, p.w}) digest.add(Vector3<double>{v.x, v.y, v.z});
+    for (const second_order::Particle &p : motion.result())
+      for (const second_order::Vec &v : {p.x, p.v, p.w}) digest.add(v);
     expect_digest(one.expected, digest, one.words);
   }
 }

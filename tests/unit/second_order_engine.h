@@ -27,6 +27,8 @@
 
 namespace Engine {
 
+using namespace second_order;
+
 using Talus::ContactBatch;
 
 inline Talus::ContactSpec spec_of(const std::string &words)
@@ -75,7 +77,7 @@ class Motion {
  public:
   /// From the state of `start` on for `time` in `steps` steps; its law counts for nothing.
   /// `repeats`: after each step the forces are found once more as in a set-up, see sets_up_alike().
-  Motion(const Kernels &law_kernels, const Reference::System &start, double time, int steps,
+  Motion(const Kernels &law_kernels, const System &start, double time, int steps,
          bool repeats = false) :
       kernels(law_kernels),
       gravity(start.gravity), particles(start.particles), planes(start.planes), dt(time / steps)
@@ -95,7 +97,7 @@ class Motion {
     for (int n = 0; n < steps; n++) {
       const double kick = lag + 0.5 * dt;
       lag = 0.5 * dt;
-      for (Reference::Particle &p : particles) {
+      for (Particle &p : particles) {
         p.v = p.v + kick * p.a;
         p.w = p.w + kick * p.alpha;
         p.x = p.x + dt * p.v;
@@ -104,13 +106,13 @@ class Motion {
       compute(true);
       if (repeats) set_up_again();
     }
-    for (Reference::Particle &p : particles) {
+    for (Particle &p : particles) {
       p.v = p.v + lag * p.a;
       p.w = p.w + lag * p.alpha;
     }
   }
 
-  const std::vector<Reference::Particle> &result() const { return particles; }
+  const std::vector<Particle> &result() const { return particles; }
   /// A set-up at any step has found the same forces, bit for bit, and left the histories alone.
   bool sets_up_alike() const { return alike; }
 
@@ -121,35 +123,33 @@ class Motion {
   };
   struct Lane {
     Contact *contact;
-    Reference::Particle *i, *j;    // j: nullptr for a plane
-    Reference::Vec r;              // from j or the plane to i
+    Particle *i, *j;    // j: nullptr for a plane
+    Vec r;              // from j or the plane to i
   };
 
-  static void set(double (&to)[3][ContactBatch::width], std::size_t lane, Reference::Vec v)
+  static void set(double (&to)[3][ContactBatch::width], std::size_t lane, Vec v)
   {
-    to[0][lane] = v.x;
-    to[1][lane] = v.y;
-    to[2][lane] = v.z;
+    for (int d = 0; d < 3; d++) to[d][lane] = v[d];
   }
-  static Reference::Vec get(const double (&from)[3][ContactBatch::width], std::size_t lane)
+  static Vec get(const double (&from)[3][ContactBatch::width], std::size_t lane)
   {
     return {from[0][lane], from[1][lane], from[2][lane]};
   }
 
   void compute(bool advance)
   {
-    for (Reference::Particle &p : particles) p.force = p.torque = Reference::Vec{};
+    for (Particle &p : particles) p.force = p.torque = Vec{};
     std::size_t place = 0;
     for (std::size_t i = 0; i < particles.size(); i++) {
       for (std::size_t j = 0; j < i; j++)
         meet(contacts[place++], particles[j], &particles[i], particles[j].x - particles[i].x,
              advance);
-      for (const Reference::Plane &p : planes)
+      for (const Plane &p : planes)
         meet(contacts[place++], particles[i], nullptr,
-             dot(particles[i].x - p.point, p.normal) * p.normal, advance);
+             inner(particles[i].x - p.point, p.normal) * p.normal, advance);
     }
     if (!used.empty()) flush(advance);
-    for (Reference::Particle &p : particles) {
+    for (Particle &p : particles) {
       p.a = gravity + (1.0 / p.mass) * p.force;
       p.alpha = (1.0 / p.inertia()) * p.torque;
     }
@@ -158,17 +158,16 @@ class Motion {
   static double square(double a) { return a * a; }
 
   /// How far a contact lasts beyond zero overlap.
-  double beyond(const Reference::Particle &i, const Reference::Particle *j) const
+  double beyond(const Particle &i, const Particle *j) const
   {
     const double radius = j ? i.radius * j->radius / (i.radius + j->radius) : i.radius;
     return Talus::pulloff_distance_of(kernels.law, kernels.row, radius);
   }
 
-  void meet(Contact &contact, Reference::Particle &i, Reference::Particle *j, Reference::Vec r,
-            bool advance)
+  void meet(Contact &contact, Particle &i, Particle *j, Vec r, bool advance)
   {
     const double rj = j ? j->radius : 0.0, reach = i.radius + rj;
-    const double squared = dot(r, r);
+    const double squared = inner(r, r);
     if (squared >= reach * reach) {
       const bool lasts = kernels.second_order ? Talus::has_just_ended(contact.history[3], advance)
                                               : squared < square(reach + beyond(i, j));
@@ -184,9 +183,9 @@ class Motion {
 
   void fill(std::size_t k, const Lane &lane)
   {
-    const Reference::Particle none{}, &i = *lane.i, &other = lane.j ? *lane.j : none;
+    const Particle none{}, &i = *lane.i, &other = lane.j ? *lane.j : none;
     const double rj = lane.j ? other.radius : 0.0, mass_j = lane.j ? 1.0 / other.mass : 0.0;
-    const double reach = i.radius + rj, distance = length(lane.r), d = reach - distance;
+    const double reach = i.radius + rj, distance = norm(lane.r), d = reach - distance;
     set(batch.normal, k, (1.0 / distance) * lane.r);
     set(batch.velocity, k, i.v - other.v);
     set(batch.surface_rotation, k, i.radius * i.w + rj * other.w);
@@ -221,11 +220,10 @@ class Motion {
       const Lane &lane = used[k];
       for (int n = 0; n < ContactBatch::history_size && advance; n++)
         lane.contact->history[n] = batch.history[n][k];
-      const Reference::Vec force = get(batch.force, k);
-      const Reference::Vec torque_per_radius =
-          kernels.law.has_friction() ? get(batch.torque_per_radius, k) : Reference::Vec{};
-      const Reference::Vec twist =
-          kernels.law.twists() ? get(batch.twisting_torque, k) : Reference::Vec{};
+      const Vec force = get(batch.force, k);
+      const Vec torque_per_radius =
+          kernels.law.has_friction() ? get(batch.torque_per_radius, k) : Vec{};
+      const Vec twist = kernels.law.twists() ? get(batch.twisting_torque, k) : Vec{};
       lane.i->force = lane.i->force + force;
       lane.i->torque = lane.i->torque - lane.i->radius * torque_per_radius + twist;
       if (!lane.j) continue;
@@ -237,25 +235,20 @@ class Motion {
 
   void set_up_again()
   {
-    const std::vector<Reference::Particle> after = std::exchange(particles, before);
+    const std::vector<Particle> after = std::exchange(particles, before);
     const std::vector<Contact> known = contacts;
     compute(false);
     for (std::size_t n = 0; n < after.size(); n++)
-      alike = alike && same(particles[n].a, after[n].a) && same(particles[n].alpha, after[n].alpha);
+      alike = alike && particles[n].a == after[n].a && particles[n].alpha == after[n].alpha;
     for (std::size_t n = 0; n < known.size(); n++)
       alike = alike && std::equal(std::begin(known[n].history), std::end(known[n].history),
                                   contacts[n].history);
     particles = after;
   }
-  static bool same(Reference::Vec a, Reference::Vec b)
-  {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-  }
-
   const Kernels &kernels;
-  Reference::Vec gravity;
-  std::vector<Reference::Particle> particles, before;
-  std::vector<Reference::Plane> planes;
+  Vec gravity;
+  std::vector<Particle> particles, before;
+  std::vector<Plane> planes;
   std::vector<Contact> contacts;
   ContactBatch batch;
   std::vector<Lane> used;

@@ -2,8 +2,8 @@
 //
 // Spheres and planes by the simplest program that can be: every pair in every step, one contact at
 // a time, the leapfrog of `start half`, and the five measures by which contacts that dissipate
-// become of second order in the time step, each of which can be left out. The reference that the
-// laws of the engine are compared with: it shares no code with them. Any consistent units.
+// become of second order in the time step. The reference that the laws of the engine are compared
+// with: it shares no code with them. Any consistent units.
 //
 //   damping   velocities at the time of the positions: v(n-1/2) + dt/2 a(n-1), the normal one with
 //             the force of the contact itself implicit, (K d - G v_p)/(1 + G dt/(2 m)), v_p with
@@ -12,30 +12,32 @@
 //   ends      the step in which a contact begins: a force A tau^p is summed by time steps with the
 //             error A dt^p zeta(-p, theta) (Hurwitz), theta = time since touching/dt
 //             (Euler-Maclaurin for a sum that does not begin on a grid point). Subtracted. The same
-//             for forces that end, in the first step after
+//             for forces that end, in the first step after, and for those that do so with jumps
 //   slip      a sliding contact moves along the mean of its old and its new force (generalized
 //             midpoint rule: Ortiz and Popov 1985, Int. J. Numer. Meth. Eng. 21, 1561)
 //   rolling   a rolling torque opposes the rotation at the time of the positions
 
-#ifndef TALUS_TESTS_SECOND_ORDER_REFERENCE_H
-#define TALUS_TESTS_SECOND_ORDER_REFERENCE_H
+#ifndef TALUS_TEST_SECOND_ORDER_REFERENCE_H
+#define TALUS_TEST_SECOND_ORDER_REFERENCE_H
 
-#include "second_order_reference_law.h"
+#include "second_order_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
-namespace Reference {
+namespace second_order {
 
 class System {
  public:
   Law law;
-  Measures with;
+  std::optional<AdhesiveLaw> adhesive;    // in its place
   Vec gravity{};
   std::vector<Particle> particles;
   std::vector<Plane> planes;
+  bool parted = false;    // a contact has ended
 
   /// From the present time on for `time` in `steps` steps; velocities at the end are those of the
   /// end.
@@ -88,7 +90,7 @@ class System {
   void meet(Particle &i, Particle &j, std::size_t place)
   {
     const Vec r = i.x - j.x;
-    const double distance = length(r), d = i.radius + j.radius - distance;
+    const double distance = norm(r), d = i.radius + j.radius - distance;
     if (d <= 0.0 && !contacts[place].touches) return;
     act({&i, &j, (1.0 / distance) * r, i.v - j.v, i.radius * i.w + j.radius * j.w, i.a - j.a,
          i.radius * i.alpha + j.radius * j.alpha, d, distance, i.mass * j.mass / (i.mass + j.mass),
@@ -98,7 +100,7 @@ class System {
 
   void meet(Particle &i, const Plane &plane, std::size_t place)
   {
-    const double distance = dot(i.x - plane.point, plane.normal), d = i.radius - distance;
+    const double distance = inner(i.x - plane.point, plane.normal), d = i.radius - distance;
     if (d <= 0.0 && !contacts[place].touches) return;
     act({&i, nullptr, plane.normal, i.v, i.radius * i.w, i.a, i.radius * i.alpha, d, distance,
          i.mass, i.radius, 1.0 / i.mass},
@@ -107,19 +109,23 @@ class System {
 
   void act(const Pair &p, Contact &c)
   {
-    if (p.d > 0.0)
-      touch(p, c);
-    else
-      separate(p, c);
+    if (p.d > (adhesive ? -adhesive->pulloff_distance(p.radius) : 0.0)) {
+      adhesive ? adhere(p, c) : touch(p, c);
+      return;
+    }
+    adhesive ? detach(p, c) : separate(p, c);
+    c = Contact{};
+    parted = true;
   }
 
   void apply(const Pair &p, Vec force, Vec moment, Vec twist)
   {
     p.i->force = p.i->force + force;
-    p.i->torque = p.i->torque - p.i->radius * moment + twist;
+    const double short_by = adhesive && p.j ? 0.5 * p.d : 0.0;
+    p.i->torque = p.i->torque - (p.i->radius - short_by) * moment + twist;
     if (!p.j) return;
     p.j->force = p.j->force - force;
-    p.j->torque = p.j->torque - p.j->radius * moment - twist;
+    p.j->torque = p.j->torque - (p.j->radius - short_by) * moment - twist;
   }
 
   /// The step in which bodies touch (sign -1) or part (+1): time from touching on or to parting
@@ -130,11 +136,16 @@ class System {
     double theta = 1.0, step_overlap = 1.0, curvature = 0.0;
   };
 
+  static double turning_of(const Pair &p)
+  {
+    const double vn = inner(p.v, p.n);
+    return p.j ? (inner(p.v, p.v) - vn * vn) / p.distance : 0.0;
+  }
+
   EventStep event_step(const Pair &p, double d, double sign, double others) const
   {
-    const double vn = dot(p.v, p.n);
-    const double turning = p.j ? (dot(p.v, p.v) - vn * vn) / p.distance : 0.0;
-    const double step = sign * dt * (vn - 0.5 * dt * turning);
+    const double turning = turning_of(p);
+    const double step = sign * dt * (inner(p.v, p.n) - 0.5 * dt * turning);
     if (d <= 0.0 || step < d) return {};
     const double straight = d / step;
     const double curvature = std::clamp(-dt * dt * (others + turning) / step, -1.0, 1.0);
@@ -145,53 +156,36 @@ class System {
   /// In parts of A dt^p; `later`: from touching or parting to the correction.
   double elastic_error(const EventStep &e, double later) const
   {
-    const double p = law.elastic_exponent(), first = zeta(p, e.theta);
+    const double p = adhesive ? adhesive->elastic_exponent() : law.elastic_exponent();
+    const double first = zeta(p, e.theta);
     return first + e.curvature * ((0.5 * p + 1.0) * zeta(p + 1.0, e.theta) - later * first);
   }
 
   /// The sum over the time steps of the force that a contact ends with, less its integral.
-  void separate(const Pair &p, Contact &c)
+  void separate(const Pair &p, const Contact &c)
   {
-    const double speed = dot(p.v, p.n);
-    const double turning = p.j ? (dot(p.v, p.v) - speed * speed) / p.distance : 0.0;
-    const double before = p.d + dt * (speed - 0.5 * dt * turning);
-    if (with.ends && with.after && before > 0.0) {
-      const double theta = before / (before - p.d);
-      const double error = c.force == 0.0      ? 0.0
-                           : law.limit_damping ? limited_end(p, c, before, speed)
-                                               : unlimited_end(p, theta, speed);
-      Vec friction{};
-      if (law.mu > 0.0 && c.force > 0.0) {
-        const Coefficients was = coefficients(law, before, p.mass, p.radius);
-        const Vec u = surface_velocity(p.v, p.spin, p.n);
-        const Vec f = was.kt * rotated(c.s, p.n, half_turn(p)) + was.gt * u;
-        if (c.slid)
-          friction = law.mu * error * unit(f);
-        else if (with.slip)
-          friction = sticks_to_the_end(p, c, f, was, u, before, speed);
-      }
-      const double pull = -law.adhesion * zeta(0.0, theta);
-      apply(p, -(error + pull) * p.n + friction, cross(p.n, friction), Vec{});
+    const double speed = inner(p.v, p.n), before = p.d + dt * (speed - 0.5 * dt * turning_of(p));
+    if (before <= 0.0) return;
+    const double theta = before / (before - p.d);
+    const double error = c.force == 0.0 ? 0.0 : end_of_force(p, c, before, speed);
+    Vec friction{};
+    if (law.mu > 0.0 && c.force > 0.0) {
+      const Coefficients was = coefficients(law, before, p.mass, p.radius);
+      const Vec u = surface_velocity(p.v, p.spin, p.n);
+      const Vec f = was.kt * rotated(c.s, p.n, half_turn(p)) + was.gt * u;
+      friction =
+          c.slid ? law.mu * error * unit(f) : sticks_to_the_end(p, c, f, was, u, before, speed);
     }
-    c = Contact{};
-  }
-
-  double unlimited_end(const Pair &p, double theta, double speed) const
-  {
-    const double reach = speed * dt;
-    const Coefficients most = coefficients(law, reach, p.mass, p.radius);
-    const double push = most.kn * reach * dt / (p.mass * speed);
-    return -push * most.kn * reach * second_at_end(law.elastic_exponent(), theta) +
-           most.kn * reach * zeta(law.elastic_exponent(), theta) -
-           most.gn * speed * zeta(law.damping_exponent(), theta);
+    const double pull = -law.adhesion * zeta(0.0, theta);
+    apply(p, -(error + pull) * p.n + friction, outer(p.n, friction), Vec{});
   }
 
   /// The force ends where damping has made up for the elastic force.
-  double limited_end(const Pair &p, const Contact &c, double before, double speed) const
+  double end_of_force(const Pair &p, const Contact &c, double before, double speed) const
   {
     const Coefficients was = coefficients(law, before, p.mass, p.radius);
     const double rest = before - was.gn * speed / was.kn, exponent = law.elastic_exponent();
-    const EventStep e = event_step(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    const EventStep e = event_step(p, rest, 1.0, inner(p.a, p.n) - c.force / p.mass);
     if (!e.happens) return 0.0;
     const double most =
         (was.kn * before - was.gn * speed) * std::pow(e.step_overlap / rest, exponent);
@@ -204,14 +198,14 @@ class System {
   Vec sticks_to_the_end(const Pair &p, const Contact &c, Vec f, const Coefficients &was, Vec u,
                         double before, double speed) const
   {
-    const double rest = law.limit_damping ? before - was.gn * speed / was.kn : before;
-    const EventStep e = event_step(p, rest, 1.0, dot(p.a, p.n) - c.force / p.mass);
+    const double rest = before - was.gn * speed / was.kn;
+    const EventStep e = event_step(p, rest, 1.0, inner(p.a, p.n) - c.force / p.mass);
     if (!e.happens) return {};
     const double limit = law.mu * c.force, falls = limit / e.theta;
     const Vec rate = dt * was.kt * u;
-    const double rises = dot(unit(f), rate);
+    const double rises = inner(unit(f), rate);
     double sticks = e.theta;
-    if (falls + rises > 0.0) sticks = (limit - length(f)) / (falls + rises);
+    if (falls + rises > 0.0) sticks = (limit - norm(f)) / (falls + rises);
     sticks = std::clamp(sticks, 0.0, e.theta);
     const double slides_on = e.theta - sticks;
     const Vec integral =
@@ -223,9 +217,8 @@ class System {
   /// F, in parts of it. Its rate: of elastic force, dashpot's coefficient and velocity.
   double since_return(const Pair &p, const Coefficients &now, double force) const
   {
-    const double vn = dot(p.v, p.n);
-    const double turning = p.j ? (dot(p.v, p.v) - vn * vn) / p.distance : 0.0;
-    const double change = dot(p.a, p.n) + turning;
+    const double vn = inner(p.v, p.n);
+    const double change = inner(p.a, p.n) + turning_of(p);
     const double growth = -law.elastic_exponent() * now.kn * vn +
                           law.damping_exponent() * now.gn / p.d * vn * vn - now.gn * change;
     return growth * dt > force ? force / (growth * dt) : 1.0;
@@ -234,48 +227,44 @@ class System {
   void touch(const Pair &p, Contact &c)
   {
     const Coefficients now = coefficients(law, p.d, p.mass, p.radius);
-    const double vn = dot(p.v, p.n);
+    const double vn = inner(p.v, p.n);
     const EventStep start =
-        lag > 0.0 && !c.touches ? event_step(p, p.d, -1.0, dot(p.a, p.n)) : EventStep{};
+        lag > 0.0 && !c.touches ? event_step(p, p.d, -1.0, inner(p.a, p.n)) : EventStep{};
     const bool begins = start.happens;
     const double theta = start.theta, approach = start.step_overlap;
     const Coefficients most =
         begins ? coefficients(law, approach, p.mass, p.radius) : Coefficients{};
 
     // normal
-    const double forward = with.damping ? lag : 0.0;
-    const double own = with.implicit && c.touches ? c.force / p.mass : 0.0;
-    const double v_p = vn + forward * (dot(p.a, p.n) - own);
-    double pure = now.kn * p.d - now.gn * v_p;
-    if (with.implicit) pure /= 1.0 + now.gn * forward / p.mass;
-    if (law.limit_damping) pure = std::max(pure, 0.0);
-    double force = pure;
-    if (begins && with.ends && with.after) {
+    const double own = c.touches ? c.force / p.mass : 0.0;
+    const double v_p = vn + lag * (inner(p.a, p.n) - own);
+    const double pure =
+        std::max((now.kn * p.d - now.gn * v_p) / (1.0 + now.gn * lag / p.mass), 0.0);
+    double force = pure, pull = law.adhesion;
+    if (begins) {
       const double elastic = most.kn * approach, push = elastic * dt * dt / (p.mass * approach);
-      force -= push * elastic * second_at_begin(law.elastic_exponent(), theta);
-    }
-    if (begins && with.ends)
-      force -= most.kn * approach * elastic_error(start, theta) -
+      force -= elastic * (push * second_at_begin(law.elastic_exponent(), theta) +
+                          elastic_error(start, theta)) -
                most.gn * vn * zeta(law.damping_exponent(), theta);
-    double pull = law.adhesion;
-    if (begins && with.ends) pull *= 1.0 - zeta(0.0, theta);
+      pull *= 1.0 - zeta(0.0, theta);
+    }
 
     // tangential
     Vec friction{};
-    const bool returns = with.slip && c.touches && c.force == 0.0 && pure > 0.0;
+    const bool returns = c.touches && c.force == 0.0 && pure > 0.0;
     const double share = returns ? since_return(p, now, pure) : theta;
     if (law.mu > 0.0) {
-      const Vec u = surface_velocity(p.v + forward * p.a, p.spin + forward * p.alpha, p.n);
-      const Vec wanted = friction_of(p, c, now, u, share, law.mu * std::fabs(pure));
+      const Vec u = surface_velocity(p.v + lag * p.a, p.spin + lag * p.alpha, p.n);
+      const Vec wanted = friction_of(p, c, now, u, share, law.mu * pure);
+      const double limit = law.mu * std::fabs(force);
       friction = wanted;
-      if (begins && with.ends)
+      if (begins)
         friction = friction + elastic_error(start, theta) * most.kt * dt * u +
                    zeta(law.damping_exponent(), theta) * most.gt * u;
-      friction = capped(friction, law.mu * std::fabs(force));
       // sliding all the time: the share of the normal force
-      if (begins && with.ends && slides) friction = (law.mu * std::fabs(force)) * unit(wanted);
+      friction = begins && c.slid ? limit * unit(wanted) : no_longer(friction, limit);
     }
-    Vec moment = cross(p.n, friction), twist{};
+    Vec moment = outer(p.n, friction), twist{};
     if (law.resistance.any()) {
       ResistanceInput in;
       in.n = in.half_n = in.old_n = p.n;
@@ -284,12 +273,12 @@ class System {
       in.rotation_change = lag * p.alpha;
       in.omega_change = lag * p.i->alpha;
       in.moment = moment;
-      in.pure = std::max(pure, 0.0);
+      in.pure = pure;
       in.force = std::max(force, 0.0);
       in.jump = law.damping_exponent() == 0.0 ? std::max(-now.gn * vn, 0.0) : 0.0;
-      in.share = begins && with.ends ? 1.0 - zeta(0.0, theta) : 1.0;
+      in.share = begins ? 1.0 - zeta(0.0, theta) : 1.0;
       in.dt = dt;
-      in.lasted = with.midpoint ? share * dt : dt;
+      in.lasted = share * dt;
       in.lag = lag;
       in.inverse_mass = p.inverse_mass;
       in.inverse_inertia = 1.0 / p.i->inertia();
@@ -303,17 +292,16 @@ class System {
         in.half_n = unit(p.distance * p.n - 0.5 * dt * p.v);
         in.old_n = unit(p.distance * p.n - dt * p.v);
       }
-      const Resisting resisting = resist(law.resistance, in, c.resistance, with.rolling);
+      const Resisting resisting = resist(law.resistance, in, c.resistance);
       moment = moment + resisting.moment;
       twist = resisting.torque - resisting.twist * p.n;
     }
     apply(p, (force - pull) * p.n + friction, moment, twist);
     c.touches = true;
     c.force = pure;
-    c.slid = law.mu > 0.0 && slides;
   }
 
-  static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - cross(spin, n); }
+  static Vec surface_velocity(Vec v, Vec spin, Vec n) { return across(v, n) - outer(spin, n); }
 
   /// Half of what the normal turns in a step.
   Vec half_turn(const Pair &p) const
@@ -321,69 +309,114 @@ class System {
     return p.j ? (0.5 * dt / p.distance) * across(p.v, p.n) : Vec{};
   }
 
-  static Vec capped(Vec a, double limit)
-  {
-    const double l = length(a);
-    return l > limit ? (limit / l) * a : a;
-  }
-
-  bool slides = false;
-
   /// Advances the displacement. Spring and dashpot in parallel, both in series with a slider: the
   /// force is -f, f = kt s + gt s', |f| <= L, and the slip u - s' is along f.
   Vec friction_of(const Pair &p, Contact &c, const Coefficients &now, Vec u, double theta,
                   double limit)
   {
-    const double lasted = with.midpoint ? theta * dt : dt;
-    const double time = lag > 0.0 ? lasted : 0.0;
-    Vec before, slip;
-    if (with.midpoint) {
-      const Vec q = half_turn(p), spin = p.spin + dot(p.spin, p.n) * q;
-      before = rotated(c.s, p.n, q);
-      slip = time * (surface_velocity(p.v, spin, p.n) + dot(p.v, p.n) * q);
-    } else {
-      before = across(c.s, p.n);
-      slip = time * surface_velocity(p.v, p.spin, p.n);
-    }
-    const Vec trial = before + slip, f = now.kt * trial + now.gt * u;
-    c.s = trial;
-    slides = length(f) > limit;
-    if (!slides) return -1.0 * f;
-    const double tau = now.gt / now.kt;
-    Vec end = limit * unit(f);
-    if (!law.slider) {
-      c.s = (1.0 / now.kt) * (end - now.gt * u);
-      return -1.0 * end;
-    }
-    if (!with.slip || time == 0.0) {
-      if (time > 0.0) c.s = (1.0 / (tau + time)) * (tau * before + (time / now.kt) * end);
-      const Vec reach = now.kt * c.s + now.gt * u;
-      return -limit * unit(reach);
-    }
+    const double time = lag > 0.0 ? theta * dt : 0.0;
+    const Vec q = half_turn(p), before = rotated(c.s, p.n, q);
+    const Vec slip =
+        time * (surface_velocity(p.v, p.spin + inner(p.spin, p.n) * q, p.n) + inner(p.v, p.n) * q);
+    c.s = before + slip;
+    const Vec f = now.kt * c.s + now.gt * u;
+    c.slid = norm(f) > limit;
+    if (!c.slid) return -1.0 * f;
+    const Vec end = limit * unit(f);
+    if (time == 0.0) return -1.0 * end;
     // the force a step ago; of a contact that begins, that of the dashpot where it did
     const double h = c.touches ? dt : time;
-    const double d0 = c.touches ? std::max(p.d + dt * dot(p.v, p.n), 0.0) : 0.0;
+    const double d0 = c.touches ? std::max(p.d + dt * inner(p.v, p.n), 0.0) : 0.0;
     const Coefficients old = coefficients(law, d0, p.mass, p.radius);
     const Coefficients mid = coefficients(law, 0.5 * (d0 + p.d), p.mass, p.radius);
     Vec g = (1.0 / now.kt) * end, rate{};
     if (c.touches) {
       const Vec u_mid = (1.0 / time) * slip, u_old = 2.0 * u_mid - u;
-      const Vec f_old = capped(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
+      const Vec f_old = no_longer(old.kt * before + old.gt * u_old, law.mu * std::fabs(c.force));
       const Vec along = unit(mid.kt * (before + 0.5 * slip) + mid.gt * u_mid);
       // g = f/kt: at its limit half way along `along`
       const Vec g_old = old.kt > 0.0 ? (1.0 / old.kt) * f_old : Vec{};
-      const double most = limit / now.kt, b = dot(along, g_old);
-      const double root = b * b + most * most - dot(g_old, g_old);
+      const double most = limit / now.kt, b = inner(along, g_old);
+      const double root = b * b + most * most - inner(g_old, g_old);
       if (root >= 0.0 && b + std::sqrt(root) > 0.0) g = (b + std::sqrt(root)) * along - g_old;
       if (old.gt > 0.0) rate = (1.0 / old.gt) * f_old;
     } else if (now.gt > 0.0)
-      rate = std::max(-law.mu * now.gn * dot(p.v, p.n) / now.gt, 0.0) * unit(f);
+      rate = std::max(-law.mu * now.gn * inner(p.v, p.n) / now.gt, 0.0) * unit(f);
     // s' = f/gt - s/tau with f/gt linear in time: second order for small h/tau, s = g for large
     if (now.gt > 0.0) rate = rate + (now.kt / now.gt) * g;
     const double t_mid = mid.gt / mid.kt;
     c.s = (1.0 / (t_mid * t_mid + t_mid * h + 0.5 * h * h)) *
           (t_mid * t_mid * (before + 0.5 * h * rate) + 0.5 * h * h * g);
     return -limit * unit(now.kt * c.s + now.gt * u);
+  }
+
+  /// touch() of a law with adhesion of its own.
+  void adhere(const Pair &p, Contact &c)
+  {
+    const AdhesiveLaw &its = *adhesive;
+    const double vn = inner(p.v, p.n), pulloff = its.pulloff_force(p.radius);
+    const double rest = its.rest(p.d, p.radius), g = its.dashpot(p.d, p.mass, p.radius);
+    const double own = c.touches ? c.force / p.mass : 0.0;
+    const double v_p = vn + lag * (inner(p.a, p.n) - own);
+    const double pure = (rest - g * v_p) / (1.0 + g * lag / p.mass);
+    const EventStep e =
+        lag > 0.0 && !c.touches ? event_step(p, p.d, -1.0, inner(p.a, p.n)) : EventStep{};
+
+    const double jump = its.rest_at_begin(p.radius), ratio = e.happens ? e.step_overlap / p.d : 1.0;
+    double early = 0.0, of_dashpot = 0.0, share = 1.0;
+    if (e.happens) {
+      const double most = (rest - jump) * std::pow(ratio, its.elastic_exponent());
+      early = jump * zeta(0.0, e.theta) + most * elastic_error(e, e.theta);
+      if (!its.detaches)
+        early += most * most * dt * dt / (p.mass * e.step_overlap) * second_at_begin(1.5, e.theta);
+      of_dashpot = std::pow(ratio, its.damping_exponent()) * zeta(its.damping_exponent(), e.theta);
+      share = 1.0 - zeta(0.0, e.theta);
+    }
+
+    const Vec u = surface_velocity(p.v + lag * p.a, p.spin + lag * p.alpha, p.n);
+    const Vec drag = -its.xt * g * u;
+    double most = its.mu * (rest - early + share * pulloff);
+    if (e.happens) most -= e.theta * grows(its.mu * (pulloff + jump), norm(drag));
+    c.slid = norm(drag) > its.mu * (rest + pulloff);
+    const Vec friction = c.slid ? most * unit(drag) : no_longer((1.0 - of_dashpot) * drag, most);
+    apply(p, (pure - early + of_dashpot * g * vn - share * pulloff) * p.n + friction,
+          outer(p.n, friction), Vec{});
+    c.touches = true;
+    c.force = pure;
+  }
+
+  /// separate() of a law with adhesion of its own.
+  void detach(const Pair &p, const Contact &c)
+  {
+    const AdhesiveLaw &its = *adhesive;
+    const double vn = inner(p.v, p.n), way = dt * (vn - 0.5 * dt * turning_of(p));
+    const double before = p.d + way, left = before + its.pulloff_distance(p.radius);
+    const EventStep e = event_step(p, left, 1.0, inner(p.a, p.n) - c.force / p.mass);
+    if (!e.happens) return;
+    const double g = its.dashpot(before, p.mass, p.radius);
+    double elastic = 0.0;
+    if (!its.detaches) {
+      const double most = its.rest(before, p.radius) * std::pow(e.step_overlap / left, 1.5);
+      const double push = most * dt * dt / (p.mass * e.step_overlap);
+      elastic = -most * (elastic_error(e, e.theta - 1.0) - push * second_at_end(1.5, e.theta));
+    }
+    const double pull = (left / way - 0.5) * its.pulloff_force(p.radius);
+    const double of_dashpot = std::pow(e.step_overlap / left, its.damping_exponent()) *
+                              zeta(its.damping_exponent(), e.theta);
+    const Vec drag = -its.xt * g * surface_velocity(p.v, p.spin, p.n);
+    const double end = e.theta * grows(its.mu * its.pulloff_force(p.radius), norm(drag));
+    const Vec friction =
+        c.slid ? (its.mu * (elastic + pull) - end) * unit(drag) : -of_dashpot * drag;
+    apply(p, (elastic + of_dashpot * g * vn - pull) * p.n + friction, outer(p.n, friction), Vec{});
+  }
+
+  /// What the integral of a dashpot's friction `drag` that grows to a limit in the first step, or
+  /// falls from it in the last one, lacks of that of the limit.
+  double grows(double limit, double drag) const
+  {
+    const double p = adhesive->damping_exponent();
+    if (drag <= limit || p == 0.0) return 0.0;
+    return limit * std::pow(limit / drag, 1.0 / p) * p / (1.0 + p);
   }
 
   static double intersection_radius_of(const Pair &p)
@@ -396,6 +429,6 @@ class System {
   }
 };
 
-}    // namespace Reference
+}    // namespace second_order
 
 #endif
