@@ -6,19 +6,12 @@ any output and after a restart, and only last digits depend on it, in periodic b
 import os
 import random
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "lib"))
+from granular_script import head
 from talus_testing import SceneCase, Sphere, max_difference, read_dump, thermo, write_sphere_data
 
-GAS = """
-units lj
-boundary {boundary}
-atom_style sphere
-atom_modify map yes
-newton off
-comm_modify vel yes
+GAS = head(boundary="{boundary}") + """
 read_data ../grains
 pair_style gran/hertz/history/talus 1e5 NULL 50 NULL 0.5 1
 pair_coeff * *
