@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Contact points of a list of pairs: a particle with a shape and another particle (ShapedPairs), or
-// and one large body (BodyPoints). These find contacts and add forces; here is what they share:
+// Contact points of a list of pairs: a particle with a shape and another particle (ShapedPairs) or
+// one large body (BodyPoints). These find contacts and add forces; here is what they share:
 // chunks of pairs, computed by any number of threads, histories, laws, and the account of work.
 //
 //   at a rebuild   save() (if points are current), set_list(), restore_points()
