@@ -78,6 +78,7 @@ void VerletProxy::setup(int flag)
 
 void VerletProxy::setup_minimal(int flag)
 {
+  system->lists().start_run();
   Verlet::setup_minimal(flag);
   if (flag && lists) lists->list_is_new();
 }
