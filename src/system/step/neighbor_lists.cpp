@@ -11,6 +11,8 @@
 #include "comm.h"
 #include "domain.h"
 #include "neighbor.h"
+#include "output.h"
+#include "thermo.h"
 #include "update.h"
 
 #include <algorithm>
@@ -54,12 +56,17 @@ double NeighborLists::skin() const
   return skins.chosen > 0.0 ? skins.chosen : neighbor->skin;
 }
 
-/* What the lists of a script are made from must not depend on outputs, which may have lists of LAMMPS. */
+/* At a rebuild LAMMPS deletes particles that have left the box, and fits faces that are shrink-wrapped: a script that counts on
+   either has its own skin. Outputs have no influence, whatever lists of LAMMPS they have. */
 
 bool NeighborLists::can_choose() const
 {
-  return skins.given > 0.0 && neighbor->dist_check && !neighbor->build_once &&
-         comm->mode == Comm::SINGLE && system.neighbors().reason_for_lammps_lists().empty();
+  const bool shrinks = domain->nonperiodic == 2;
+  const bool may_lose =
+      domain->nonperiodic && output->thermo && output->thermo->lostflag != Thermo::ERROR;
+  return !shrinks && !may_lose && skins.given > 0.0 && neighbor->dist_check &&
+         !neighbor->build_once && comm->mode == Comm::SINGLE &&
+         system.neighbors().reason_for_lammps_lists().empty();
 }
 
 void NeighborLists::init(bool wanted)
