@@ -53,7 +53,8 @@ void NeighborLists::are_new()
 
 double NeighborLists::skin() const
 {
-  return skins.chosen > 0.0 ? skins.chosen : neighbor->skin;
+  if (skins.chosen > 0.0) return skins.chosen;
+  return wide > 0.0 ? skins.given : neighbor->skin;    // which is the wide one during init()
 }
 
 /* At a rebuild LAMMPS deletes particles that have left the box, and fits faces that are shrink-wrapped: a script that counts on
