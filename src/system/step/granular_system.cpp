@@ -81,7 +81,7 @@ void GranularSystem::detach(const Pair *pair)
   energies.clear();
   run_contacts.forget();
   contact_pipeline.emplace();
-  neighbor_lists.go_on_with({});
+  neighbor_lists.end_choice();
   if (!contact_memory.has_others()) store_of_memory.remove();
 }
 

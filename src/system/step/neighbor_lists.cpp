@@ -57,6 +57,14 @@ double NeighborLists::skin() const
   return wide > 0.0 ? skins.given : neighbor->skin;    // which is the wide one during init()
 }
 
+void NeighborLists::end_choice()
+{
+  start_run();
+  may_choose = false;
+  wide = 0.0;
+  skins = {};
+}
+
 /* At a rebuild LAMMPS deletes particles that have left the box, and fits faces that are shrink-wrapped: a script that counts on
    either has its own skin. Outputs have no influence, whatever lists of LAMMPS they have. */
 
@@ -73,19 +81,22 @@ bool NeighborLists::can_choose() const
 void NeighborLists::init(bool wanted)
 {
   const double before = skins.given;
-  if (wide == 0.0 || neighbor->skin != wide)
-    skins.given = neighbor->skin;    // else an error came between
+  start_run();    // an error has come between
+  skins.given = neighbor->skin;
   wide = 0.0;
   may_choose = wanted && can_choose();
   if (!may_choose || skins.given != before) skins.chosen = 0.0;
   made = 0;
   unit = 0.0;
-  if (may_choose) neighbor->skin = wide = std::max(skins.given, widest());
+  if (!may_choose) return;
+  neighbor->skin = wide = std::max(skins.given, widest());
+  is_widened = true;
 }
 
 void NeighborLists::start_run()
 {
-  if (wide > 0.0) neighbor->skin = skins.given;
+  if (is_widened) neighbor->skin = skins.given;
+  is_widened = false;
 }
 
 double NeighborLists::reach_of_ghosts() const

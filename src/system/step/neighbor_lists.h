@@ -69,8 +69,10 @@ class NeighborLists : protected LAMMPS_NS::Pointers {
     double given = 0.0, chosen = 0.0;
   };
   const Choice &choice() const { return skins; }
-  /// Out of a file, or {}: the pair style goes.
+  /// Out of a file.
   void go_on_with(const Choice &choice) { skins = choice; }
+  /// The pair style goes.
+  void end_choice();
 
   void exchange_state(StateExchange &x);
 
@@ -83,6 +85,7 @@ class NeighborLists : protected LAMMPS_NS::Pointers {
   LAMMPS_NS::bigint present = 0, last = 0;
   DomainBox box_then;
   bool may_choose = false;
+  bool is_widened = false;    // class Neighbor has the wide skin at present
   Choice skins;
   double wide = 0.0;    // that of class Neighbor during init(), and of its lists; 0: the given one
   int made = 0;         // lists in this run
