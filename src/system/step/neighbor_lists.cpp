@@ -95,7 +95,7 @@ void NeighborLists::init(bool wanted)
 
 void NeighborLists::start_run()
 {
-  if (is_widened) neighbor->skin = skins.given;
+  if (is_widened && neighbor->skin == wide) neighbor->skin = skins.given;
   is_widened = false;
 }
 
