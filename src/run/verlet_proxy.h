@@ -54,7 +54,7 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   std::optional<bool> on_machines;             ///< more than one
   bool ever_set_up = false, set_up = false;    ///< the second: for the coming run
   bool needs_lists = false;                    ///< the next step makes neighbor lists
-  bool skin_may_be_chosen = true;
+  bool skin_may_be_chosen = false;
   bool overlaps = false;               ///< in this run
   bool reverses = false;               ///< in this run forces on ghosts go to their owners
   Talus::ExchangeCounters at_start;    ///< of the run

@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: cost=20 timeout=300
-"""run_style verlet/proxy: the skin that is chosen for neighbor lists is the same on any number of ranks and threads, with
+"""run_style verlet/proxy skin chosen: the skin for neighbor lists is the same on any number of ranks and threads, with
 any output and after a restart, and only last digits depend on it, in periodic boxes."""
 
 import os
@@ -16,6 +16,7 @@ read_data ../grains
 pair_style gran/hertz/history/talus 1e5 NULL 50 NULL 0.5 1
 pair_coeff * *
 neighbor 0.3 bin
+run_style verlet/proxy skin {skin}
 timestep 1e-3
 fix move all nve/sphere
 {walls}
@@ -29,8 +30,14 @@ fix x all wall/gran hertz/history 1e5 NULL 50 NULL 0.5 1 xplane 0 30
 fix y all wall/gran hertz/history 1e5 NULL 50 NULL 0.5 1 yplane 0 20
 fix z all wall/gran hertz/history 1e5 NULL 50 NULL 0.5 1 zplane 0 20
 """
-GIVEN = "run_style verlet/proxy skin given"
-LISTS = "compute c all coord/atom cutoff 0.99\ncompute m all reduce sum c_c\nthermo_style custom step ke c_m\nthermo_modify norm no"
+LISTS = """
+compute c all coord/atom cutoff 0.99
+compute m all reduce sum c_c
+compute p all pair/local dist
+compute d all reduce sum c_p
+thermo_style custom step ke c_m c_d
+thermo_modify norm no
+"""
 
 
 def grains():
@@ -53,11 +60,11 @@ class ChosenSkin(SceneCase):
     def setUp(self):
         write_sphere_data(self.path("grains"), ((0, 30), (0, 20), (0, 20)), grains())
 
-    def gas(self, name, np=1, boundary="p p p", more="", steps=300, **options):
+    def gas(self, name, np=1, boundary="p p p", more="", steps=300, skin="chosen", **options):
         where = self.path(name)
         os.makedirs(where, exist_ok=True)
         script = "suffix talus\n" + GAS.format(boundary=boundary, walls=WALLS if boundary == "f f f" else "", more=more,
-                                               steps=steps)
+                                               steps=steps, skin=skin)
         log = self.run_lammps(script, np=np, cwd=where, **options).log
         return read_dump(os.path.join(where, "end"))[0], log
 
@@ -78,7 +85,7 @@ class ChosenSkin(SceneCase):
         """Fewer rebuilds with the chosen one; last digits differ in a periodic box, and none between walls."""
         for boundary, most in (("p p p", 1e-7), ("f f f", 0.0)):
             frame, log = self.gas(f"chosen {boundary}", boundary=boundary)
-            given, log_of_given = self.gas(f"given {boundary}", boundary=boundary, more=GIVEN)
+            given, log_of_given = self.gas(f"given {boundary}", boundary=boundary, skin="given")
             self.assertIsNone(chosen(log_of_given))
             self.assertLess(2 * rebuilds(log), rebuilds(log_of_given))
             if most:
@@ -87,13 +94,14 @@ class ChosenSkin(SceneCase):
                 self.assert_same_bits(frame, given)
 
     def test_lists_of_lammps_are_complete(self):
-        """A compute that has one counts the same with a skin that is wider than the script's."""
-        counts = []
-        for more in ("", GIVEN):
-            _, log = self.gas(f"counts {len(counts)}", np=2, more=f"{LISTS}\nthermo 20\n{more}", boundary="f f f")
-            counts.append([row["c_m"] for row in thermo(log)])
-        self.assertEqual(*counts)
-        self.assertGreater(max(counts[0]), 4)
+        """They have all pairs up to the skin of the script, and no others, whatever that of Talus is."""
+        rows = [thermo(self.gas(f"lists {skin}", np=2, more=f"{LISTS}\nthermo 20", boundary="f f f", skin=skin)[1])
+                for skin in ("chosen", "given")]
+        self.assertGreater(max(row["c_m"] for row in rows[0]), 4)
+        self.assertGreater(min(row["c_d"] for row in rows[0][5:]), 100)
+        for mine, theirs in zip(*rows, strict=True):
+            self.assertEqual(mine["c_m"], theirs["c_m"])
+            self.assert_close(mine["c_d"], theirs["c_d"], 1e-9)
 
     def test_restart(self):
         """The choice is in the file; another skin of the script takes its place."""
@@ -106,6 +114,7 @@ class ChosenSkin(SceneCase):
             pair_style gran/hertz/history/talus 1e5 NULL 50 NULL 0.5 1
             pair_coeff * *
             neighbor {skin} bin
+            run_style verlet/proxy skin chosen
             fix move all nve/sphere
             run 0
         """

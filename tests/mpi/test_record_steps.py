@@ -31,7 +31,7 @@ fix xhi all large/body plane 9.5 0 0  -1 0 0  contact {law}
 fix yhi all large/body plane 0 7.2 0  0 -1 0  contact {law}
 """
 LID = f"fix lid all large/body plane 0 0 6 0 0 -1 move variable NULL NULL v_d NULL NULL NULL contact {LAW}"
-PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes skin given"    # as that of LAMMPS has it
+PROXY = "comm_proxy yes\nrun_style verlet/proxy overlap yes"
 
 
 class RecordsCase(TossedCase):

@@ -96,13 +96,13 @@ class ShapeBits(SceneCase):
 
     def test_records_and_arrays(self):
         """Steps in the records, with messages beside the computation and before it, and in the arrays of LAMMPS."""
-        one, log = self.frames("one", commands=f"run_style verlet/proxy skin given\nrun {STEPS}")
+        one, log = self.frames("one")
         self.assertIn(self.IN_RECORDS, log)
         for name, np, commands, in_records in (
                 ("arrays", 1, "run_style verlet/stock", False), ("arrays on two", 2, "run_style verlet/stock", False),
-                ("messages of LAMMPS", 2, "comm_proxy no\nrun_style verlet/proxy skin given", False),
-                ("overlap", 2, "run_style verlet/proxy overlap yes skin given", True),
-                ("no overlap", 2, "run_style verlet/proxy overlap no skin given", True),
+                ("messages of LAMMPS", 2, "comm_proxy no", False),
+                ("overlap", 2, "run_style verlet/proxy overlap yes", True),
+                ("no overlap", 2, "run_style verlet/proxy overlap no", True),
                 ("energies", 2, "run_style verlet/proxy skin given\ncompute p all penalty/stats\nthermo_modify lost error", False)):
             with self.subTest(name):
                 where, log = self.frames(name, np, commands=f"{commands}\nrun {STEPS}")

@@ -11,6 +11,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "neighbor.h"
+#include "npair.h"
 #include "output.h"
 #include "thermo.h"
 #include "update.h"
@@ -95,8 +96,12 @@ void NeighborLists::init(bool wanted)
 
 void NeighborLists::start_run()
 {
-  if (is_widened && neighbor->skin == wide) neighbor->skin = skins.given;
+  if (!is_widened) return;
   is_widened = false;
+  if (neighbor->skin == wide) neighbor->skin = skins.given;
+  // lists of LAMMPS are looked for in wide bins, and have pairs up to the given skin
+  for (int n = 0; n < neighbor->nlist; n++)
+    if (neighbor->neigh_pair[n]) neighbor->neigh_pair[n]->copy_neighbor_info();
 }
 
 double NeighborLists::reach_of_ghosts() const

@@ -3,10 +3,10 @@
 // The neighbor lists that a LAMMPS instance has at present: which they are, the box in which they were made, and how
 // far they reach. Snapshots ask whether they are still those of then.
 //
-// The skin is that of the neighbor command, or a wider one that is chosen in the course of a run (SkinChoice), where the
-// run style is verlet/proxy and finds pairs itself. All that lists something until particles have moved by half of the
-// skin asks here. Lists that LAMMPS makes for others are then made with the widest that may be chosen, so that these
-// others have no influence on the choice, and ghosts reach as far as the lists that there are.
+// The skin is that of the neighbor command, or a wider one that is chosen in the course of a run (skin_choice.h), with
+// run style verlet/proxy `skin chosen` where it finds pairs itself. All that lists something until particles have moved by half of the
+// skin asks here. Lists that LAMMPS makes for others are then looked for in bins for the widest that may be chosen, so
+// that these others have no influence on the choice, and ghosts reach as far as the lists that there are.
 
 #ifndef TALUS_SYSTEM_STEP_NEIGHBOR_LISTS_H
 #define TALUS_SYSTEM_STEP_NEIGHBOR_LISTS_H
