@@ -103,7 +103,7 @@ class ShapeBits(SceneCase):
                 ("messages of LAMMPS", 2, "comm_proxy no", False),
                 ("overlap", 2, "run_style verlet/proxy overlap yes", True),
                 ("no overlap", 2, "run_style verlet/proxy overlap no", True),
-                ("energies", 2, "run_style verlet/proxy skin given\ncompute p all penalty/stats\nthermo_modify lost error", False)):
+                ("energies", 2, "compute p all penalty/stats\nthermo_modify lost error", False)):
             with self.subTest(name):
                 where, log = self.frames(name, np, commands=f"{commands}\nrun {STEPS}")
                 self.assertEqual(self.IN_RECORDS in log, in_records)

@@ -10,6 +10,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "neigh_list.h"
 #include "neighbor.h"
 #include "npair.h"
 #include "output.h"
@@ -101,7 +102,7 @@ void NeighborLists::start_run()
   if (neighbor->skin == wide) neighbor->skin = skins.given;
   // lists of LAMMPS are looked for in wide bins, and have pairs up to the given skin
   for (int n = 0; n < neighbor->nlist; n++)
-    if (neighbor->neigh_pair[n]) neighbor->neigh_pair[n]->copy_neighbor_info();
+    if (NPair *builder = neighbor->lists[n]->np) builder->copy_neighbor_info();
 }
 
 double NeighborLists::reach_of_ghosts() const
