@@ -34,7 +34,7 @@ LISTS = """
 compute c all coord/atom cutoff 0.99
 compute m all reduce sum c_c
 compute p all pair/local dist
-compute d all reduce sum c_p
+compute d all reduce sum c_p inputs local
 thermo_style custom step ke c_m c_d
 thermo_modify norm no
 """
