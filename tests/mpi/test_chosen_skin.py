@@ -95,10 +95,10 @@ class ChosenSkin(SceneCase):
 
     def test_lists_of_lammps_are_complete(self):
         """They have all pairs up to the skin of the script, and no others, whatever that of Talus is."""
-        rows = [thermo(self.gas(f"lists {skin}", np=2, more=f"{LISTS}\nthermo 20", boundary="f f f", skin=skin)[1])
+        rows = [thermo(self.gas(f"lists {skin}", np=2, more=LISTS, boundary="f f f", skin=skin)[1])
                 for skin in ("chosen", "given")]
         self.assertGreater(max(row["c_m"] for row in rows[0]), 4)
-        self.assertGreater(min(row["c_d"] for row in rows[0][5:]), 100)
+        self.assertGreater(min(row["c_d"] for row in rows[0][1:]), 10)
         for mine, theirs in zip(*rows, strict=True):
             self.assertEqual(mine["c_m"], theirs["c_m"])
             self.assert_close(mine["c_d"], theirs["c_d"], 1e-9)
