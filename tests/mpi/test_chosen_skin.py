@@ -94,7 +94,7 @@ class ChosenSkin(SceneCase):
                 self.assert_same_bits(frame, given)
 
     def test_lists_of_lammps_are_complete(self):
-        """They have all pairs up to the skin of the script, and no others, whatever that of Talus is."""
+        """They are used for as long as those of Talus."""
         rows = [thermo(self.gas(f"lists {skin}", np=2, more=LISTS, boundary="f f f", skin=skin)[1])
                 for skin in ("chosen", "given")]
         self.assertGreater(max(row["c_m"] for row in rows[0]), 4)

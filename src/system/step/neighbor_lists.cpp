@@ -10,9 +10,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
-#include "neigh_list.h"
 #include "neighbor.h"
-#include "npair.h"
 #include "output.h"
 #include "thermo.h"
 #include "update.h"
@@ -97,12 +95,8 @@ void NeighborLists::init(bool wanted)
 
 void NeighborLists::start_run()
 {
-  if (!is_widened) return;
+  if (is_widened && neighbor->skin == wide) neighbor->skin = skins.given;
   is_widened = false;
-  if (neighbor->skin == wide) neighbor->skin = skins.given;
-  // lists of LAMMPS are looked for in wide bins, and have pairs up to the given skin
-  for (int n = 0; n < neighbor->nlist; n++)
-    if (NPair *builder = neighbor->lists[n]->np) builder->copy_neighbor_info();
 }
 
 double NeighborLists::reach_of_ghosts() const

@@ -5,8 +5,8 @@
 //
 // The skin is that of the neighbor command, or a wider one that is chosen in the course of a run (skin_choice.h), with
 // run style verlet/proxy `skin chosen` where it finds pairs itself. All that lists something until particles have moved by half of the
-// skin asks here. Lists that LAMMPS makes for others are then looked for in bins for the widest that may be chosen, so
-// that these others have no influence on the choice, and ghosts reach as far as the lists that there are.
+// skin asks here. Lists that LAMMPS makes for others are then made with the widest that may be chosen: these others have
+// no influence on the choice, and ghosts reach as far as the lists that there are.
 
 #ifndef TALUS_SYSTEM_STEP_NEIGHBOR_LISTS_H
 #define TALUS_SYSTEM_STEP_NEIGHBOR_LISTS_H
