@@ -107,7 +107,8 @@ double ComputeCoarseGrid::reach() const
   double radius = 0.0;
   for (int i = 0; i < atom->nlocal && with_volumes; i++) radius = std::max(radius, atom->radius[i]);
   MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
-  return width + std::max({neighbor->cutneighmax, radius, 0.0}) + Talus::GranularSystem::of(lmp)->lists().skin();
+  return width + std::max({neighbor->cutneighmax, radius, 0.0}) +
+         Talus::GranularSystem::of(lmp)->lists().skin();
 }
 
 void ComputeCoarseGrid::free_data()
