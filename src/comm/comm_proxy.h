@@ -11,13 +11,11 @@
 #define LMP_COMM_PROXY_H
 
 #include "comm/comm_reach.h"
-#include "comm/ghost_cutoff.h"
 #include "system/exchange/direct_exchange.h"
 
 #include "comm_tiled.h"
 
 #include <cstring>
-#include <type_traits>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -43,12 +41,7 @@ template <class Base> class CommProxy : public Base {
   void setup() override
   {
     direct.finish();
-    if constexpr (std::is_same_v<Base, CommTiled>) {
-      const Talus::GhostCutoff reach(this->lmp, *this->neighbor);
-      Base::setup();
-    } else {
-      Base::setup();
-    }
+    Base::setup();
   }
   void set_proc_grid(int outflag = 1) override
   {

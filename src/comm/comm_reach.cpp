@@ -2,7 +2,6 @@
 
 #include "comm/comm_reach.h"
 
-#include "comm/ghost_cutoff.h"
 #include "exchange/exchange_plan.h"
 #include "exchange/exchange_tags.h"
 #include "system/step/granular_system.h"
@@ -37,10 +36,7 @@ Place wrapped(int place, int places)
 
 void CommReach::setup()
 {
-  {
-    const GhostCutoff reach(lmp, *neighbor);
-    CommBrick::setup();
-  }
+  CommBrick::setup();
   by_reach =
       is_few_domains() && GranularSystem::of(lmp)->exchange().needs_beyond_contacts().empty();
   if (!by_reach) return;
@@ -82,7 +78,7 @@ ProxyReach CommReach::reach()
 {
   const auto system = GranularSystem::of(lmp);
   const double unit = system->range().radii().largest(),
-               skin = system->lists().skin() + system->range().largest_pulloff_distance();
+               skin = neighbor->skin + system->range().largest_pulloff_distance();
   ProxyReach::ClassRadii classes = ProxyReach::classes_of(atom->nlocal, atom->radius, unit);
   MPI_Allreduce(MPI_IN_PLACE, classes.data(), ProxyReach::num_classes, MPI_DOUBLE, MPI_MAX, world);
   return {domains(), classes, unit, skin};

@@ -6,7 +6,6 @@
 #include "system/host/command_words.h"
 #include "system/host/particle_volume.h"
 #include "system/host/rows.h"
-#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -107,8 +106,7 @@ double ComputeCoarseGrid::reach() const
   double radius = 0.0;
   for (int i = 0; i < atom->nlocal && with_volumes; i++) radius = std::max(radius, atom->radius[i]);
   MPI_Allreduce(MPI_IN_PLACE, &radius, 1, MPI_DOUBLE, MPI_MAX, world);
-  return width + std::max({neighbor->cutneighmax, radius, 0.0}) +
-         Talus::GranularSystem::of(lmp)->lists().skin();
+  return width + std::max({neighbor->cutneighmax, radius, 0.0}) + neighbor->skin;
 }
 
 void ComputeCoarseGrid::free_data()

@@ -26,8 +26,7 @@ double distance(const std::array<double, 3> &a, const std::array<double, 3> &b)
 
 }    // namespace
 
-RebuildCheck::RebuildCheck(LAMMPS *lmp, const NeighborLists &present) :
-    Pointers(lmp), lists(present)
+RebuildCheck::RebuildCheck(LAMMPS *lmp) : Pointers(lmp)
 {
   MPI_Comm_dup(world, &own_world);
 }
@@ -101,7 +100,6 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
   neighbor->dist_check = 0;
   const bool due = neighbor->decide();
   neighbor->dist_check = with_check;
-  by_motion = false;
   if (!due) return false;
   const bool forced = neighbor->ago == age;
   if (forced || !with_check || !asked) return true;
@@ -110,12 +108,12 @@ bool RebuildCheck::decide(const std::function<double()> &moved)
   const MotionForecast forecast{lengths->all[0], lengths->all[1]};
   if (!forecast.may_leave(limit_when_asked(), neighbor->every)) return false;
   if (neighbor->every == 1 && !has_left(moved())) return false;
-  if (forecast.moved > 0.5 * lists.skin()) {
+  if (forecast.moved > 0.5 * neighbor->skin) {
     const int first_check = std::max(neighbor->every, neighbor->delay);    // a multiple of `every`
     (neighbor->ago == first_check ? delayed : unforeseen)++;
     neighbor->ndanger++;
   }
-  return by_motion = true;
+  return true;
 }
 
 void RebuildCheck::drop()
@@ -152,7 +150,7 @@ bool RebuildCheck::has_left(double moved) const
 
 double RebuildCheck::limit() const
 {
-  if (!domain->box_change) return 0.5 * lists.skin();
+  if (!domain->box_change) return 0.5 * neighbor->skin;
   const Corners now = box_corners();
   double first = 0.0, second = 0.0;
   for (int c = 0; c < 8; c++) {
@@ -161,7 +159,7 @@ double RebuildCheck::limit() const
     second = std::max(second, std::min(first, moved));
     first = std::max(first, moved);
   }
-  return std::max(0.0, 0.5 * (lists.skin() - (first + second)));
+  return std::max(0.0, 0.5 * (neighbor->skin - (first + second)));
 }
 
 /* What the box has done since we asked can have carried particles along. */

@@ -25,11 +25,10 @@
 namespace Talus {
 
 class GranularSystem;
-class NeighborLists;
 
 class RebuildCheck : protected LAMMPS_NS::Pointers {
  public:
-  RebuildCheck(LAMMPS_NS::LAMMPS *lmp, const NeighborLists &lists);
+  explicit RebuildCheck(LAMMPS_NS::LAMMPS *lmp);
   /// Completes what was asked; after a second without an end (a rank has left with an error) gives
   /// it up. Collective.
   ~RebuildCheck() override;
@@ -47,9 +46,6 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   /// Once per step, after particles have moved: whether lists are rebuilt in this step. `moved`:
   /// tells how far the particles of this rank are from where they were when lists were made.
   bool decide(const std::function<double()> &moved);
-
-  /// The last decision to rebuild came from how far particles have moved.
-  bool is_by_motion() const { return by_motion; }
 
   /// At the end of a run: what was asked is not needed.
   void drop();
@@ -69,10 +65,9 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   double limit_when_asked() const;
   bool has_left(double moved) const;
 
-  const NeighborLists &lists;
   MPI_Comm own_world = MPI_COMM_NULL;
   MPI_Request request = MPI_REQUEST_NULL;
-  bool asked = false, by_motion = false;
+  bool asked = false;
   struct Lengths {
     double mine[2], all[2];    ///< of a MotionForecast, here and everywhere
   };

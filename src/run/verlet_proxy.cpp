@@ -36,18 +36,12 @@ VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
 {
   if (std::strcmp(update->integrate_style, "verlet") == 0) return;
   Words words = command_words(lmp, "run_style verlet/proxy", narg, arg, 0, 1);
-  while (!words.at_end()) {
-    if (words.take("overlap")) {
-      words.about("overlap");
-      wanted = words.choice("value", {"yes", "no"}) == 0 ? Overlap::YES : Overlap::NO;
-    } else if (words.take("skin")) {
-      words.about("skin");
-      skin_may_be_chosen = words.choice("value", {"chosen", "given"}) == 0;
-    } else {
-      words.fail(0, "expected overlap or skin instead of '" + words.peek() + "'");
-    }
-    words.about("");
-  }
+  if (words.at_end()) return;
+  if (!words.take("overlap")) words.fail(0, "expected overlap instead of '" + words.peek() + "'");
+  words.about("overlap");
+  wanted = words.choice("value", {"yes", "no"}) == 0 ? Overlap::YES : Overlap::NO;
+  words.about("");
+  words.end();
 }
 
 std::string VerletProxy::reason_for_stock() const
@@ -65,10 +59,9 @@ void VerletProxy::init()
 
 void VerletProxy::setup(int flag)
 {
-  if (makes_own_steps() && !lists) lists.emplace(lmp, system->lists());
+  if (makes_own_steps() && !lists) lists.emplace(lmp);
   decide_on_overlap();
   system->steps_in_records().report(pair_compute_flag);
-  system->lists().start_run();
   Verlet::setup(flag);
   if (lists) lists->list_is_new();
   ever_set_up = set_up = true;
@@ -78,7 +71,6 @@ void VerletProxy::setup(int flag)
 
 void VerletProxy::setup_minimal(int flag)
 {
-  system->lists().start_run();
   Verlet::setup_minimal(flag);
   if (flag && lists) lists->list_is_new();
 }
@@ -178,10 +170,7 @@ void VerletProxy::step()
   const bool is_due = lists->decide([this] { return system->step().moved_since_rebuild(); });
   const bool must_rebuild = is_due || needs_lists;
   needs_lists = false;
-  if (must_rebuild) {
-    if (is_due && lists->is_by_motion()) system->lists().have_served();
-    rebuild();
-  }
+  if (must_rebuild) rebuild();
   // LAMMPS' forces are not read in a step after which particles stay in the records
   const bool to_arrays = system->step().begin_forces(now, eflag || vflag);
   if (!must_rebuild)
@@ -291,7 +280,6 @@ void VerletProxy::cleanup()
   Verlet::cleanup();
   system->definitions().are_present();
   if (comm->me == 0 && lists) {
-    utils::logmesg(lmp, system->lists().summary());
     if (lists->num_delayed())
       error->warning(FLERR,
                      "Run style {}: neighbor lists were {} times made too late: particles "

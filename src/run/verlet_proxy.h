@@ -34,7 +34,6 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   std::string reason_for_stock() const override;
   void lists_are_made() override;
   bool was_set_up() const override { return ever_set_up; }
-  bool may_choose_skin() const override { return skin_may_be_chosen && makes_own_steps(); }
 
  private:
   enum class Overlap { AUTOMATIC, YES, NO };
@@ -54,11 +53,10 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   std::optional<bool> on_machines;             ///< more than one
   bool ever_set_up = false, set_up = false;    ///< the second: for the coming run
   bool needs_lists = false;                    ///< the next step makes neighbor lists
-  bool skin_may_be_chosen = false;
-  bool overlaps = false;               ///< in this run
-  bool reverses = false;               ///< in this run forces on ghosts go to their owners
-  Talus::ExchangeCounters at_start;    ///< of the run
-  std::string announced;               ///< last reason given for not overlapping
+  bool overlaps = false;                       ///< in this run
+  bool reverses = false;                       ///< in this run forces on ghosts go to their owners
+  Talus::ExchangeCounters at_start;            ///< of the run
+  std::string announced;                       ///< last reason given for not overlapping
 };
 
 }    // namespace LAMMPS_NS

@@ -47,10 +47,10 @@ class Messages(SceneCase):
                 ("comm_proxy check perhaps", "comm_proxy check: unknown value 'perhaps', expected yes or no", "perhaps"),
                 ("comm_proxy check yes now", "surplus word 'now'", "now"),
                 ("comm_proxy check yes", "say 'comm_proxy yes' first", None),
-                ("run_style verlet/proxy lap", "expected overlap or skin instead of 'lap'", "lap"),
+                ("run_style verlet/proxy lap", "expected overlap instead of 'lap'", "lap"),
                 ("run_style verlet/proxy overlap", "overlap: missing value: yes or no", "overlap"),
                 ("run_style verlet/proxy overlap so", "unknown value 'so', expected yes or no", "so"),
-                ("run_style verlet/proxy overlap yes no", "expected overlap or skin instead of 'no'", "no")):
+                ("run_style verlet/proxy overlap yes no", "surplus word 'no'", "no")):
             self.refused(box + command + "\n", message, word, ranks=(1,))
         self.refused(box + "comm_proxy maybe\n", "unknown word 'maybe'", "maybe", ranks=(2,))
 

@@ -92,7 +92,7 @@ void HostWall::exchange_state(StateExchange &x)
 bool HostWall::is_stale(double moved, double displacement) const
 {
   return !is_listed || atom->nlocal != owned_then ||
-         (bounded && !(moved + moved_then + displacement <= system.lists().skin()));
+         (bounded && !(moved + moved_then + displacement <= neighbor->skin));
 }
 
 bool HostWall::list_if_needed(double displacement)
@@ -108,7 +108,7 @@ void HostWall::list(double moved)
 {
   constexpr double anywhere = 1.0e100;
   contacts.find_candidates(*surface, at_rest, system.step().particles(), atom->mask, fix->groupbit,
-                           bounded ? system.lists().skin() : anywhere, comm->nthreads);
+                           bounded ? neighbor->skin : anywhere, comm->nthreads);
   find_masses();
   is_listed = true;
   owned_then = atom->nlocal;
@@ -118,7 +118,7 @@ void HostWall::list(double moved)
 Eigen::AlignedBox3d HostWall::bounds_of_search() const
 {
   return contacts.bounds_of_search(at_rest, system.step().particles(), atom->mask, fix->groupbit,
-                                   system.lists().skin());
+                                   neighbor->skin);
 }
 
 /* As LAMMPS has them here: those of bodies, but neither converted nor infinite. */

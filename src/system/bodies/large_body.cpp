@@ -160,13 +160,13 @@ std::string LargeBody::guide(const BodyState &state, int steps)
   double reach;
   const double reach_here = contacts.reach();
   MPI_Allreduce(&reach_here, &reach, 1, MPI_DOUBLE, MPI_MAX, world);
-  return body_motion.guide(state, steps, system.lists().skin(), reach);
+  return body_motion.guide(state, steps, neighbor->skin, reach);
 }
 
 std::string LargeBody::guide_vertices(const MovingVertices::Places &places,
                                       const MovingVertices::Places *velocities, int steps)
 {
-  return body_shape->as_mesh()->guide(places, velocities, steps, update->dt, system.lists().skin());
+  return body_shape->as_mesh()->guide(places, velocities, steps, update->dt, neighbor->skin);
 }
 
 ParticleState LargeBody::view() const
@@ -219,7 +219,7 @@ void LargeBody::compute(bool advance, double *virial)
     mine = contacts.static_load();
     account.sum = contacts.static_work();
   } else {
-    if (contacts.is_stale(frame(), system.lists().skin())) {
+    if (contacts.is_stale(frame(), neighbor->skin)) {
       BodyFindings seen = findings_now();
       seen.join(seen_between);
       list_particles();

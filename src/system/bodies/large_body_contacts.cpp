@@ -33,8 +33,8 @@ void LargeBody::list_particles()
   const int *mask = mask_of_spheres();
   if (MeshShape *const mesh = moving_mesh()) mesh->settle(system.shapes() != nullptr);
   if (body_shape->wants_focus()) body_shape->focus(bounds_of_focus(particles, mask));
-  contacts.find_candidates(*body_shape, frame(), particles, mask, group_bits(),
-                           system.lists().skin(), comm->nthreads);
+  contacts.find_candidates(*body_shape, frame(), particles, mask, group_bits(), neighbor->skin,
+                           comm->nthreads);
   if (order_of_history != 0 && order_of_history != system.integrators().order())
     change_order_of_histories();
   order_of_history = system.integrators().order();
@@ -74,7 +74,7 @@ Eigen::AlignedBox3d LargeBody::bounds_of_focus(const ParticleState &particles, c
   constexpr double everywhere = 1.0e100;
   if (system.shapes())
     return {Eigen::Vector3d::Constant(-everywhere), Eigen::Vector3d::Constant(everywhere)};
-  return contacts.bounds_of_search(frame(), particles, mask, group_bits(), system.lists().skin());
+  return contacts.bounds_of_search(frame(), particles, mask, group_bits(), neighbor->skin);
 }
 
 /* Particles with a shape belong to no group here: the system computes their contacts. */

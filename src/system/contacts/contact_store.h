@@ -29,7 +29,7 @@ class ContactStore : protected LAMMPS_NS::Pointers {
   void create();
   /// An error where it should be there, and a script has deleted it. `command`: who asks.
   void require(const std::string &command) const;
-  /// Nobody has contacts to remember any more.
+  /// After the last who had contacts to remember.
   void remove();
 
   /// By the fix, as soon as it is there and when it goes.

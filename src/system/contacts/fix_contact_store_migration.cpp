@@ -197,8 +197,8 @@ void FixContactStore::exchange_histories(Talus::StateExchange &x)
 
 namespace {
 
-constexpr int restart_format = 7;
-enum State { INVERSE_CELL, PARTICLES, ORDER, WITH_PAIRS, GIVEN_SKIN, CHOSEN_SKIN, STATE_SIZE };
+constexpr int restart_format = 6;
+enum State { INVERSE_CELL, PARTICLES, ORDER, WITH_PAIRS, STATE_SIZE };
 constexpr int restart_header = Talus::size_particle_head + 3;
 
 }    // namespace
@@ -220,8 +220,6 @@ void FixContactStore::write_restart(FILE *fp)
   state[PARTICLES] = static_cast<double>(particles);
   state[ORDER] = order;
   state[WITH_PAIRS] = has_pairs() ? 1.0 : 0.0;
-  state[GIVEN_SKIN] = system->lists().choice().given;
-  state[CHOSEN_SKIN] = system->lists().choice().chosen;
   Talus::write_restart_data_of_fix(fp, restart_format, state, sizeof state);
 }
 
@@ -231,7 +229,6 @@ void FixContactStore::restart(char *buf)
   order = static_cast<int>(state[ORDER]);
   pairs_were_read = state[WITH_PAIRS] != 0.0;
   inverse_cell = state[INVERSE_CELL];
-  system->lists().go_on_with({state[GIVEN_SKIN], state[CHOSEN_SKIN]});
   if (state[PARTICLES] != static_cast<double>(atom->natoms))
     error->all(FLERR, unassignable("added or deleted"));
 }

@@ -75,7 +75,7 @@ NeighborView NeighborSource::find(const NeighList *list, double pulloff_distance
   const int total = atom->nlocal + atom->nghost;
   try {
     search.find({atom->nlocal, total, total ? atom->x[0] : nullptr, atom->radius,
-                 GranularSystem::of(lmp)->lists().skin() + pulloff_distance},
+                 neighbor->skin + pulloff_distance},
                 comm->nthreads,
                 types_excluded || groups_excluded || molecules_excluded
                     ? [this](int i, int j) { return excludes(i, j); }

@@ -9,7 +9,7 @@
 //   CommBrick           localsendlist                    not set by `comm_style brick` after others, and freed
 //   Compute, Fix, Pair  instance_me                      a command that was given anew under its name
 //   Modify              (id, used)_restart_peratom       data of a restart file that no command has taken
-//   Neighbor            neigh_bin                        bins that nobody asks are left out
+//   Neighbor            neigh_bin                        bins that no list is made from are left out
 //   PairHybrid          nstyles, styles, nmap            hybrid with one part that computes all pairs
 //   Variable            style, data, varstyles           formulas; before get_style() and get_info() came in
 //                                                        summer 2025 (TALUS_HOST_TELLS_FORMULAS)

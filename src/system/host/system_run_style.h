@@ -31,8 +31,6 @@ class SystemRunStyle {
   virtual void lists_are_made() = 0;
   /// A run with this object has been set up: it has no other way to know of what it calls.
   virtual bool was_set_up() const = 0;
-  /// It makes the steps of this run itself, with any skin (see NeighborLists). Valid after its init().
-  virtual bool may_choose_skin() const = 0;
 
  protected:
   ~SystemRunStyle() = default;    // never deleted through this interface

@@ -32,7 +32,6 @@ SavedLists::SavedLists(LAMMPS *lmp, GranularSystem &owner) :
 void SavedLists::save()
 {
   number = made.number();
-  skin = made.choice();
   if (!system.shapes()) pairs = system.rebuild().pair_lists();
   step = neighbor->lastcall;
   decomposition = present_decomposition();
@@ -95,7 +94,6 @@ bool SavedLists::are_present() const
 
 void SavedLists::prepare() const
 {
-  made.go_on_with(skin);
   if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   atom->nghost = 0;
   if (!on_all_ranks(present_decomposition() == decomposition)) {

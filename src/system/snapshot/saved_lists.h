@@ -67,7 +67,6 @@ class SavedLists : protected LAMMPS_NS::Pointers {
   std::shared_ptr<const ContactPipeline::Lists>
       pairs;    ///< between spheres; those with shapes are found anew
   LAMMPS_NS::bigint number = 0, step = -1;
-  NeighborLists::Choice skin;
   Decomposition decomposition;
   int comm_style = 0;
   DomainBox box;

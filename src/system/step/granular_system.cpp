@@ -37,7 +37,7 @@ GranularSystem::GranularSystem(LAMMPS *lmp) :
     neighbor_source(lmp), effective_masses(lmp), contact_range(lmp, pair_coeffs), monitor(lmp),
     time_step(lmp), monitors(lmp), movers(lmp), energies(lmp, movers), run_contacts(lmp, *this),
     exchange_switch(lmp), gravity(lmp, *this), record_steps(lmp, *this, movers),
-    neighbor_lists(lmp, *this), set_up_with(lmp, *this), loads_of_others(lmp, *this),
+    neighbor_lists(lmp), set_up_with(lmp, *this), loads_of_others(lmp, *this),
     step_of_run(lmp, *this, {contact_pipeline, movers, run_contacts, time_step}),
     rebuild_of_lists(lmp, *this, {contact_pipeline, neighbor_source, run_contacts}),
     large_bodies(lmp, *this)
@@ -81,7 +81,6 @@ void GranularSystem::detach(const Pair *pair)
   energies.clear();
   run_contacts.forget();
   contact_pipeline.emplace();
-  neighbor_lists.end_choice();
   if (!contact_memory.has_others()) store_of_memory.remove();
 }
 
@@ -98,8 +97,6 @@ void GranularSystem::init_pair_style()
   // well below the smallest particle of usual scenes: tags decide only where keys are equal
   const double largest = contact_range.radii().largest();
   store()->use_cells(largest > 0.0 ? 0.125 * largest : 1.0);
-  const SystemRunStyle *run_style = SystemRunStyle::of(update->integrate);
-  neighbor_lists.init(update->whichflag == 1 && run_style && run_style->may_choose_skin());
   monitors.start();
   time_step.start();
   prepared.reset();    // init_one() will mix what is not set
@@ -132,7 +129,6 @@ void GranularSystem::prepare_laws()
 void GranularSystem::exchange_state(StateExchange &x)
 {
   energies.exchange_state(x);
-  neighbor_lists.exchange_state(x);
   if (x.restores()) {
     monitors.forget_step();
     if (store() && contact_pipeline->has_pairs())

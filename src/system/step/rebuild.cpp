@@ -86,7 +86,6 @@ void Rebuild::find_pairs()
   const std::vector<std::int64_t> tags(atom->tag, atom->tag + nall);
   NeighborView found = parts.neighbors.find(system.pair_style().get()->list,
                                             system.range().largest_pulloff_distance());
-  system.lists().count(found);
   if (system.shapes()) found = without_shapes(found);
   contacts().set_pairs({atom->nlocal, system.store()->all_keys(), tags, atom->type}, found);
   parts.neighbors.release();
