@@ -188,7 +188,7 @@ RoundWall::Direction RoundWall::maximum_between(Sample low, Sample high) const
   return low.slope < -high.slope ? low.at : high.at;
 }
 
-/* What of the arc may be behind the wall, by samples of all of it. false: nothing. */
+/* What of the arc may be behind the wall, by samples of all of it: its ends are not. false: nothing. */
 
 bool RoundWall::narrow_down(Arc &arc, Samples &samples) const
 {

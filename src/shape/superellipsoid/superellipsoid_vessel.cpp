@@ -23,6 +23,13 @@ namespace {
 
 using Vector = Vector3<double>;
 
+/// A unit vector normal to this one.
+Vector beside(const Vector &n)
+{
+  const Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
+  return (1.0 / length(s)) * s;
+}
+
 /// A point of the shape, outermost along a direction, and the wall there.
 struct Place {
   Vector normal, x;    ///< in the frame of the body
@@ -93,9 +100,7 @@ class Climb {
   bool newton(const Place &place, Vector &turned) const
   {
     const Vector &n = place.normal;
-    Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
-    s = (1.0 / length(s)) * s;
-    const Vector t = cross(n, s), lacking = place.lacking();
+    const Vector s = beside(n), t = cross(n, s), lacking = place.lacking();
     const Vector by_s = wall.turn(place.x, s), by_t = wall.turn(place.x, t);
     const Vector own_s = a.pose.direction_in_body(s), own_t = a.pose.direction_in_body(t);
     const double ss = place.of_shape.curvature(own_s, own_s),
@@ -243,9 +248,7 @@ bool may_leave(const PlacedSuperellipsoid &a, const InwardWall &ball, const Vect
   if (!(distance > 1.5 * size)) return true;
   const double aside = over_half * size / std::sqrt(distance * distance - size * size);
   const Vector &n = direction;
-  Vector s = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
-  s = (1.0 / length(s)) * s;
-  const Vector t = cross(n, s);
+  const Vector s = beside(n), t = cross(n, s);
   const double inverse = 1.0 / std::sqrt(1.0 + aside * aside);
   Vector seen[lanes];
   for (int k = 0; k < 7; k++)
