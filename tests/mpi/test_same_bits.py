@@ -174,21 +174,21 @@ class SameBits(HeapCase):
             self.check(f"skin {skin} sort {sort}", np, neighbors=rebuilds(skin), sort=sort)
 
     def test_rebuild_settings(self):
-        for rebuild in "every 1 delay 0 check no", "every 7 delay 0 check no", "delay 5":
-            for np in 1, 4:
-                self.check(rebuild, np, neighbors=rebuilds(0.3, rebuild))
+        settings = "every 1 delay 0 check no", "every 7 delay 0 check no", "delay 5"
+        for rebuild, np in part_of(itertools.product(settings, (1, 4)), 1, 1):
+            self.check(rebuild, np, neighbors=rebuilds(0.3, rebuild))
 
     def test_processor_grids(self):
-        for grid in "4 1 1", "1 4 1", "1 1 4", "2 2 1", "1 2 2", "2 1 2":
+        for grid in part_of(("4 1 1", "1 4 1", "1 1 4", "2 2 1", "1 2 2", "2 1 2"), 1):
             self.check(grid, 4, grid=grid)
         self.check("3 1 1", 3, grid="3 1 1")
 
     def test_newton(self):
-        for np in 1, 2, 4:
+        for np in part_of((1, 4, 2), 1):
             self.check("newton on", np, newton="on")
 
     def test_threads(self):
-        for np, threads in (1, 2), (1, 3), (2, 2), (3, 3), (8, 1):
+        for np, threads in part_of(((2, 2), (1, 2), (3, 3), (1, 3), (8, 1)), 1):
             self.check(f"threads {threads}", np, comm=f"package omp {threads}")
         self.check("threads by suffix", 2, comm="suffix omp\npackage omp 2")
 
@@ -198,8 +198,8 @@ class SameBits(HeapCase):
         self.check("fix balance shift", 2, middle="fix even all balance 100 1.0 shift xyz 10 1.0\n")
         self.check("fix balance shift", 4, middle="fix even all balance 37 1.0 shift xz 10 1.0\n")
         tiled = "balance 1.0 rcb\nfix even all balance 70 1.0 rcb\n"
-        for np, comm in (4, "comm_style tiled"), (3, "comm_style tiled"), (2, "comm_style tiled"):
-            self.check("rcb", np, middle=tiled, comm=comm)
+        for np in part_of((4, 3, 2), 1):
+            self.check("rcb", np, middle=tiled, comm="comm_style tiled")
 
     def test_hybrid_overlay(self):
         for np in 1, 4:
