@@ -82,11 +82,11 @@ template <class Real> TALUS_INLINE Real exponential(Real y)
   return ((sum * f + 1.0) * f + 1.0) * number_with<Real>(power_of_two);
 }
 
-template <class Half> TALUS_INLINE Twice<Half> logarithm(Twice<Half> x)
+template <class Half> TALUS_INLINE DoubleWidth<Half> logarithm(DoubleWidth<Half> x)
 {
   return {logarithm(x.low), logarithm(x.high)};
 }
-template <class Half> TALUS_INLINE Twice<Half> exponential(Twice<Half> y)
+template <class Half> TALUS_INLINE DoubleWidth<Half> exponential(DoubleWidth<Half> y)
 {
   return {exponential(y.low), exponential(y.high)};
 }

@@ -74,7 +74,8 @@ template <class Vector> TALUS_INLINE Vector chosen(bool condition, Vector one, V
   return (Vector) (((Bits) one & mask) | ((Bits) other & ~mask));
 }
 template <class Half>
-TALUS_INLINE Twice<Half> chosen(bool condition, Twice<Half> one, Twice<Half> other)
+TALUS_INLINE DoubleWidth<Half> chosen(bool condition, DoubleWidth<Half> one,
+                                      DoubleWidth<Half> other)
 {
   return {chosen(condition, one.low, other.low), chosen(condition, one.high, other.high)};
 }
@@ -114,25 +115,25 @@ template <class Vector> struct Memory {
   }
 };
 
-template <class Half> struct Memory<Twice<Half>> {
+template <class Half> struct Memory<DoubleWidth<Half>> {
   using Number = number_of<Half>;
   using Part = Memory<Half>;
   static constexpr int width = width_of<Half>;
 
-  TALUS_INLINE static Twice<Half> load(const Number *a)
+  TALUS_INLINE static DoubleWidth<Half> load(const Number *a)
   {
     return {Part::load(a), Part::load(a + width)};
   }
-  TALUS_INLINE static void store(Number *a, Twice<Half> v)
+  TALUS_INLINE static void store(Number *a, DoubleWidth<Half> v)
   {
     Part::store(a, v.low);
     Part::store(a + width, v.high);
   }
-  TALUS_INLINE static Twice<Half> load_anywhere(const Number *a)
+  TALUS_INLINE static DoubleWidth<Half> load_anywhere(const Number *a)
   {
     return {Part::load_anywhere(a), Part::load_anywhere(a + width)};
   }
-  TALUS_INLINE static void store_anywhere(Number *a, Twice<Half> v)
+  TALUS_INLINE static void store_anywhere(Number *a, DoubleWidth<Half> v)
   {
     Part::store_anywhere(a, v.low);
     Part::store_anywhere(a + width, v.high);
@@ -220,7 +221,7 @@ TALUS_INLINE int store_chosen(number_of<Vector> *to, unsigned bits, Vector value
   return count;
 }
 template <class Half>
-TALUS_INLINE int store_chosen(number_of<Half> *to, unsigned bits, Twice<Half> values)
+TALUS_INLINE int store_chosen(number_of<Half> *to, unsigned bits, DoubleWidth<Half> values)
 {
   const int low = store_chosen(to, bits, values.low);
   return low + store_chosen(to + low, bits >> width_of<Half>, values.high);

@@ -2,7 +2,7 @@
 //
 // Vectors of any width on any processor, written with the vector extension that GCC and Clang
 // share: one register where the machine has registers of that size, else two vectors of half the
-// width (base/twice.h). What the extension lacks, or what not every compiler has of it, is here in
+// width (base/double_width.h). What the extension lacks, or what not every compiler has of it, is here in
 // intrinsics of AVX-512, AVX, SSE2 and NEON; a processor with none of them gets plain loops.
 //
 // Everything here rounds as IEEE 754 prescribes: results do not depend on the width of registers.
@@ -10,8 +10,8 @@
 #ifndef TALUS_BASE_VECTORS_H
 #define TALUS_BASE_VECTORS_H
 
+#include "base/double_width.h"
 #include "base/intrinsics.h"
-#include "base/twice.h"
 
 #include <cmath>
 #include <cstdint>
@@ -48,7 +48,7 @@ template <class Number, int width, bool fits> struct VectorType {
   typedef Number type __attribute__((vector_size(width * sizeof(Number))));
 };
 template <class Number, int width> struct VectorType<Number, width, false> {
-  using type = Twice<
+  using type = DoubleWidth<
       typename VectorType<Number, width / 2, width / 2 * sizeof(Number) <= register_size>::type>;
 };
 /// `width` numbers; width is a power of 2 and the vector has 16 bytes at least.
@@ -71,7 +71,8 @@ template <class Mask, class Vector> TALUS_INLINE Vector select(Mask mask, Vector
   return mask ? yes : no;
 }
 template <class Mask, class Half>
-TALUS_INLINE Twice<Half> select(Twice<Mask> mask, Twice<Half> yes, Twice<Half> no)
+TALUS_INLINE DoubleWidth<Half> select(DoubleWidth<Mask> mask, DoubleWidth<Half> yes,
+                                      DoubleWidth<Half> no)
 {
   return {select(mask.low, yes.low, no.low), select(mask.high, yes.high, no.high)};
 }
@@ -82,7 +83,7 @@ template <class Vector> TALUS_INLINE Vector larger(Vector a, Vector b)
 }
 
 /// Number k of a vector, or of two that follow each other.
-template <int k, class Half> TALUS_INLINE number_of<Half> number_at(const Twice<Half> &v)
+template <int k, class Half> TALUS_INLINE number_of<Half> number_at(const DoubleWidth<Half> &v)
 {
   if constexpr (k < width_of<Half>)
     return v.low[k];
@@ -90,9 +91,9 @@ template <int k, class Half> TALUS_INLINE number_of<Half> number_at(const Twice<
     return v.high[k - width_of<Half>];
 }
 template <int k, class Half>
-TALUS_INLINE number_of<Half> number_at(const Twice<Half> &a, const Twice<Half> &b)
+TALUS_INLINE number_of<Half> number_at(const DoubleWidth<Half> &a, const DoubleWidth<Half> &b)
 {
-  constexpr int width = width_of<Twice<Half>>;
+  constexpr int width = width_of<DoubleWidth<Half>>;
   if constexpr (k < width)
     return number_at<k>(a);
   else
@@ -111,7 +112,7 @@ template <int... from, class Vector> TALUS_INLINE Vector shuffle(Vector a, Vecto
 #endif
 }
 template <int f0, int f1, int f2, int f3, class Half>
-TALUS_INLINE Twice<Half> shuffle(Twice<Half> a, Twice<Half> b)
+TALUS_INLINE DoubleWidth<Half> shuffle(DoubleWidth<Half> a, DoubleWidth<Half> b)
 {
   static_assert(width_of<Half> == 2);
   return {Half{number_at<f0>(a, b), number_at<f1>(a, b)},
@@ -119,15 +120,15 @@ TALUS_INLINE Twice<Half> shuffle(Twice<Half> a, Twice<Half> b)
 }
 
 /// Two vectors side by side, and the halves of one.
-template <class Half> TALUS_INLINE Twice<Half> join(Half low, Half high)
+template <class Half> TALUS_INLINE DoubleWidth<Half> join(Half low, Half high)
 {
   return {low, high};
 }
-template <class Half> TALUS_INLINE Half low_half(Twice<Half> v)
+template <class Half> TALUS_INLINE Half low_half(DoubleWidth<Half> v)
 {
   return v.low;
 }
-template <class Half> TALUS_INLINE Half high_half(Twice<Half> v)
+template <class Half> TALUS_INLINE Half high_half(DoubleWidth<Half> v)
 {
   return v.high;
 }
@@ -274,8 +275,8 @@ TALUS_INLINE void transpose(Vec8 &a, Vec8 &b, Vec8 &c, Vec8 &d)
 #endif
 /// Two matrices in vectors of two registers: not for Vec4 without AVX, which is one matrix.
 template <class Half>
-TALUS_INLINE std::enable_if_t<width_of<Half> == 4> transpose(Twice<Half> &a, Twice<Half> &b,
-                                                             Twice<Half> &c, Twice<Half> &d)
+TALUS_INLINE std::enable_if_t<width_of<Half> == 4>
+transpose(DoubleWidth<Half> &a, DoubleWidth<Half> &b, DoubleWidth<Half> &c, DoubleWidth<Half> &d)
 {
   transpose(a.low, b.low, c.low, d.low);
   transpose(a.high, b.high, c.high, d.high);
@@ -309,7 +310,7 @@ TALUS_INLINE Vec2 square_root(Vec2 a)
 #endif
 }
 #endif
-template <class Half> TALUS_INLINE Twice<Half> square_root(Twice<Half> a)
+template <class Half> TALUS_INLINE DoubleWidth<Half> square_root(DoubleWidth<Half> a)
 {
   return {square_root(a.low), square_root(a.high)};
 }
@@ -347,13 +348,13 @@ template <class Mask> TALUS_INLINE unsigned bits_of(Mask mask)
 #endif
   }
 }
-template <class Half> TALUS_INLINE unsigned bits_of(Twice<Half> mask)
+template <class Half> TALUS_INLINE unsigned bits_of(DoubleWidth<Half> mask)
 {
   return bits_of(mask.low) | bits_of(mask.high) << width_of<Half>;
 }
 
 #if defined(__aarch64__)
-TALUS_INLINE unsigned bits_of(Twice<bool_of<Vec2>> mask)
+TALUS_INLINE unsigned bits_of(DoubleWidth<bool_of<Vec2>> mask)
 {
   return bits_of((bool_of<Float4>) vuzp1q_u32((uint32x4_t) mask.low, (uint32x4_t) mask.high));
 }
@@ -395,7 +396,7 @@ TALUS_INLINE bool any(bool_of<Vec2> mask)
 #endif
 }
 #endif
-template <class Half> TALUS_INLINE bool any(Twice<Half> mask)
+template <class Half> TALUS_INLINE bool any(DoubleWidth<Half> mask)
 {
   return any(mask.low | mask.high);
 }

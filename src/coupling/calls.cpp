@@ -103,7 +103,7 @@ void advance(talus_partner &partner, std::int64_t steps)
   partner.set_up_if_needed();
   const char *const go_on = is_set_up_for_a_length(partner.instance()) ? "" : " pre no";
   if (steps) partner.command("run " + std::to_string(steps) + go_on + " post no");
-  partner.system().definitions().are_present();
+  partner.system().setup_state().record();
 }
 
 }    // namespace

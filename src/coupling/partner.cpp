@@ -349,12 +349,12 @@ void talus_partner::command(const std::string &line)
 
 void talus_partner::set_up_if_needed()
 {
-  if (needs_set_up || !system().definitions().change_with_particles().empty()) set_up();
+  if (needs_set_up || !system().setup_state().change_with_particles().empty()) set_up();
 }
 
 void talus_partner::set_up_if_lost()
 {
-  if (!system().definitions().lost().empty()) set_up();
+  if (!system().setup_state().lost().empty()) set_up();
 }
 
 /* A run style of LAMMPS does not tell that a run has been set up. */
@@ -364,5 +364,5 @@ void talus_partner::set_up()
   system().external_loads().make_fix();
   command("run 0 post no");
   needs_set_up = false;
-  system().definitions().are_set_up();
+  system().setup_state().record_setup();
 }

@@ -40,9 +40,9 @@ int call_restore(talus_partner *partner, const talus_snapshot *snapshot)
     partner->refuse_if(snapshot ? snapshot->state.reason_against_restoring(partner->system())
                                 : "snapshot is NULL");
     partner->set_up_if_lost();    // restoring calls fixes, which look at regions and exchange
-    const bool due = partner->needs_set_up || !partner->system().definitions().change().empty();
+    const bool due = partner->needs_set_up || !partner->system().setup_state().change().empty();
     snapshot->state.restore();
-    partner->system().definitions().are_present();
+    partner->system().setup_state().record();
     partner->needs_set_up = due;
   });
 }

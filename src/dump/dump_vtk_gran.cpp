@@ -3,7 +3,7 @@
 #include "dump/dump_vtk_gran.h"
 
 #include "system/contacts/compute_contact_list.h"
-#include "system/host/present_time.h"
+#include "system/host/simulated_time.h"
 #include "system/shapes/shaped_particles.h"
 
 #include "atom.h"
@@ -155,7 +155,7 @@ void DumpVtkGran::write()
   }
 
   if (comm->me) return;
-  const double time = present_time(update);
+  const double time = simulated_time(update);
   if (!series) {
     series = std::make_unique<VtkTimeSeries>(stem + ".pvd");
     if (append_flag) series->go_on(time);
@@ -265,7 +265,7 @@ std::string DumpVtkGran::file_name(const std::string &part, const std::string &e
 
 void DumpVtkGran::write_part(const std::string &name, VtkPolyData &part, bool in_pieces)
 {
-  const double time = present_time(update);
+  const double time = simulated_time(update);
   const auto in_folder = [](const std::string &path) {
     return path.substr(path.find_last_of('/') + 1);
   };

@@ -32,7 +32,7 @@ namespace {
 // A contact is a long chain of operations that wait for each other, too long for a processor to
 // look beyond it to the next one. So these kernels compute two vectors of the machine at a time.
 #if defined(__AVX512F__)
-using Wide = Twice<Vec8>;
+using Wide = DoubleWidth<Vec8>;
 #else
 using Wide = Vec8;
 #endif

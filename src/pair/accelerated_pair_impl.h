@@ -60,7 +60,7 @@ template <class Stock> void AcceleratedPair<Stock>::init_style()
                      "before pair_style, or set this before the first run",
                      plain, later);
 
-  this->system->definitions().laws_will_be_made();
+  this->system->setup_state().expect_new_laws();
   set_laws();
   this->system->init_pair_style();
   keep_stock_history(stock_history());

@@ -68,7 +68,7 @@ void PairGranPenalty::allocate()
 void PairGranPenalty::init_style()
 {
   check_host();
-  system->definitions().laws_will_be_made();
+  system->setup_state().expect_new_laws();
   system->init_pair_style();
   const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty() && system->range().largest_pulloff_distance() > neighbor->skin)

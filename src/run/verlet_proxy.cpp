@@ -66,7 +66,7 @@ void VerletProxy::setup(int flag)
   if (lists) lists->list_is_new();
   ever_set_up = set_up = true;
   needs_lists = false;
-  system->definitions().are_set_up();
+  system->setup_state().record_setup();
 }
 
 void VerletProxy::setup_minimal(int flag)
@@ -106,16 +106,16 @@ void VerletProxy::decide_on_overlap()
 
 void VerletProxy::go_on_without_set_up()
 {
-  const std::string change = system->definitions().change_with_particles();
+  const std::string change = system->setup_state().change_with_particles();
   if (!change.empty())
     error->all(FLERR, "Run: leave 'pre no' out: {} since the last set-up", change);
-  needs_lists = system->definitions().have_other_ghosts();
+  needs_lists = system->setup_state().has_other_ghosts();
 }
 
 void VerletProxy::run(int n)
 {
   if (!set_up &&
-      (system->pair_style().is_there() || system->definitions().have_another_pair_style()))
+      (system->pair_style().is_there() || system->setup_state().has_another_pair_style()))
     go_on_without_set_up();
   set_up = false;
   if (DirectExchange *proxies = system->exchange().direct()) {
@@ -278,7 +278,7 @@ void VerletProxy::compute_forces(bool to_arrays)
 void VerletProxy::cleanup()
 {
   Verlet::cleanup();
-  system->definitions().are_present();
+  system->setup_state().record();
   if (comm->me == 0 && lists) {
     if (lists->num_delayed())
       error->warning(FLERR,

@@ -2,7 +2,7 @@
 
 #include "system/bodies/large_body_surface.h"
 
-#include "system/host/present_time.h"
+#include "system/host/simulated_time.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -157,7 +157,7 @@ void LargeBodySurface::write_picture(const BodyFrame &frame)
   const VtkPolyData all = picture(frame);
   if (comm->me) return;
   const std::string problem =
-      all.write(utils::star_subst(given.file, update->ntimestep, 0), present_time(update));
+      all.write(utils::star_subst(given.file, update->ntimestep, 0), simulated_time(update));
   if (!problem.empty()) error->one(FLERR, "Fix large/body vtk: {}", problem);
 }
 

@@ -131,7 +131,7 @@ void FixContactStore::init_without_pairs()
 
 void FixContactStore::init_for_pairs()
 {
-  system->definitions().are_listed();
+  system->setup_state().list_fixes();
   // the history must be put aside before any fix moves particles between ranks
   for (const auto &ifix : Talus::fix_list(*modify)) {
     if (ifix == this) break;

@@ -34,7 +34,7 @@ int FixExternalLoads::setmask()
 
 void FixExternalLoads::init()
 {
-  system->definitions().are_listed();
+  system->setup_state().list_fixes();
   if (utils::strmatch(update->integrate_style, "^respa") && loads().any())
     error->all(FLERR,
                "Forces, drag or heat that another program has put on particles do not act with "

@@ -37,7 +37,7 @@ GranularSystem::GranularSystem(LAMMPS *lmp) :
     neighbor_source(lmp), effective_masses(lmp), contact_range(lmp, pair_coeffs), monitor(lmp),
     time_step(lmp), monitors(lmp), movers(lmp), energies(lmp, movers), run_contacts(lmp, *this),
     exchange_switch(lmp), gravity(lmp, *this), record_steps(lmp, *this, movers),
-    neighbor_lists(lmp), set_up_with(lmp, *this), loads_of_others(lmp, *this),
+    neighbor_lists(lmp), state_at_setup(lmp, *this), loads_of_others(lmp, *this),
     step_of_run(lmp, *this, {contact_pipeline, movers, run_contacts, time_step}),
     rebuild_of_lists(lmp, *this, {contact_pipeline, neighbor_source, run_contacts}),
     large_bodies(lmp, *this)

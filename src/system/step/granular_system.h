@@ -31,10 +31,10 @@
 #include "system/monitor/time_step_monitor.h"
 #include "system/shapes/shaped_particles.h"
 #include "system/step/attached_pair.h"
-#include "system/step/definitions.h"
 #include "system/step/integrators.h"
 #include "system/step/neighbor_lists.h"
 #include "system/step/rebuild.h"
+#include "system/step/setup_state.h"
 #include "system/step/step.h"
 #include "system/step/steps_in_records.h"
 #include "system/step/weights.h"
@@ -99,7 +99,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Step &step() { return step_of_run; }
   Rebuild &rebuild() { return rebuild_of_lists; }
   /// With what the last run was set up.
-  Definitions &definitions() { return set_up_with; }
+  SetupState &setup_state() { return state_at_setup; }
 
   /// Particles that are not spheres, nullptr: all are. Of one command, from its constructor to its destructor.
   ShapedParticles *shapes() const { return shaped.get(); }
@@ -157,7 +157,7 @@ class GranularSystem : protected LAMMPS_NS::Pointers {
   Weights gravity;
   StepsInRecords record_steps;
   NeighborLists neighbor_lists;
-  Definitions set_up_with;
+  SetupState state_at_setup;
   ExternalLoads loads_of_others;
   Step step_of_run;
   Rebuild rebuild_of_lists;

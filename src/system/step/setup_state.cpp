@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "system/step/definitions.h"
+#include "system/step/setup_state.h"
 
 #include "base/state_digest.h"
 #include "system/host/fix_list.h"
@@ -28,7 +28,7 @@ namespace Talus {
 
 /* ---- what there is --------------------------------------------------------------------------- */
 
-Definitions::List Definitions::present_fixes() const
+SetupState::List SetupState::present_fixes() const
 {
   List all;
   for (const Fix *fix : fix_list(*modify))
@@ -37,7 +37,7 @@ Definitions::List Definitions::present_fixes() const
   return all;
 }
 
-Definitions::List Definitions::present_computes() const
+SetupState::List SetupState::present_computes() const
 {
   List all;
   for (const Compute *compute : modify->get_compute_list())
@@ -46,7 +46,7 @@ Definitions::List Definitions::present_computes() const
   return all;
 }
 
-Definitions::List Definitions::present_regions() const
+SetupState::List SetupState::present_regions() const
 {
   List all;
   for (const Region *region : domain->get_region_list())
@@ -54,7 +54,7 @@ Definitions::List Definitions::present_regions() const
   return all;
 }
 
-Definitions::List Definitions::present_variables() const
+SetupState::List SetupState::present_variables() const
 {
   List all;
   for (const auto &[name, index] : equal_style_variables(lmp))
@@ -62,12 +62,12 @@ Definitions::List Definitions::present_variables() const
   return all;
 }
 
-int Definitions::present_pair() const
+int SetupState::present_pair() const
 {
   return force->pair ? number_of_instance(*force->pair) : -1;
 }
 
-std::uint64_t Definitions::digest_of_particles(int begin, int end) const
+std::uint64_t SetupState::digest_of_particles(int begin, int end) const
 {
   StateDigest digest;
   digest.add(static_cast<std::uint64_t>(end - begin));
@@ -75,24 +75,24 @@ std::uint64_t Definitions::digest_of_particles(int begin, int end) const
   return digest.value();
 }
 
-void Definitions::laws_will_be_made()
+void SetupState::expect_new_laws()
 {
   laws_are_known = then.laws == system.laws().revision();
 }
 
-void Definitions::are_listed()
+void SetupState::list_fixes()
 {
   listed = present_fixes();
   if (laws_are_known) then.laws = system.laws().revision();
 }
 
-void Definitions::are_set_up()
+void SetupState::record_setup()
 {
-  are_present();
+  record();
   listed = then.fixes;
 }
 
-void Definitions::are_present()
+void SetupState::record()
 {
   is_set_up = true;
   then.fixes = present_fixes();
@@ -142,7 +142,7 @@ template <class List> std::string difference(const List &before, const List &now
 /* But for what is not the same on all ranks. What is defined and deleted again between two init() of LAMMPS is
    not there in between. Nothing points to regions and variables that are new. */
 
-std::string Definitions::lost_here() const
+std::string SetupState::lost_here() const
 {
   if (!is_set_up) return "no run has been set up";
   if (then.run_style != update->integrate_style) return "the run style is another one";
@@ -159,7 +159,7 @@ std::string Definitions::lost_here() const
   return of_fixes.empty() ? difference(listed, fixes) : of_fixes;
 }
 
-bool Definitions::has_moved_region() const
+bool SetupState::has_moved_region() const
 {
   const auto now = domain->get_region_list();
   return std::any_of(then.addresses.begin(), then.addresses.end(), [&now](const Region *one) {
@@ -167,14 +167,14 @@ bool Definitions::has_moved_region() const
   });
 }
 
-std::string Definitions::lost() const
+std::string SetupState::lost() const
 {
   const bool moved = on_any_rank(has_moved_region());
   const std::string here = lost_here();
   return here.empty() && moved ? "a region has been defined anew" : here;
 }
 
-std::string Definitions::change() const
+std::string SetupState::change() const
 {
   std::string found = lost();
   if (found.empty()) found = difference(then.computes, present_computes());
@@ -185,7 +185,7 @@ std::string Definitions::change() const
   return found;
 }
 
-std::string Definitions::change_with_particles() const
+std::string SetupState::change_with_particles() const
 {
   const bool others = on_any_rank(then.owned != digest_of_particles(0, atom->nlocal));
   const std::string found = change();
@@ -194,12 +194,12 @@ std::string Definitions::change_with_particles() const
              : found;
 }
 
-bool Definitions::have_other_ghosts() const
+bool SetupState::has_other_ghosts() const
 {
   return on_any_rank(then.ghosts != digest_of_particles(atom->nlocal, atom->nlocal + atom->nghost));
 }
 
-bool Definitions::on_any_rank(bool here) const
+bool SetupState::on_any_rank(bool here) const
 {
   int mine = here, any = 0;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);

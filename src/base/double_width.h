@@ -3,8 +3,8 @@
 // Vectors that are wider than the machine's registers. Compilers would take them, but compare them
 // number by number, with branches, and pass them through memory.
 
-#ifndef TALUS_BASE_TWICE_H
-#define TALUS_BASE_TWICE_H
+#ifndef TALUS_BASE_DOUBLE_WIDTH_H
+#define TALUS_BASE_DOUBLE_WIDTH_H
 
 #include <type_traits>
 #include <utility>
@@ -21,13 +21,13 @@
 namespace Talus {
 
 /// Two vectors as one of twice the width. Arithmetic and comparisons are those of the halves; a
-/// comparison gives a Twice of their masks.
-template <class Half> struct Twice;
+/// comparison gives a DoubleWidth of their masks.
+template <class Half> struct DoubleWidth;
 
 template <class Vector> struct NumberOf {
   using type = std::decay_t<decltype(std::declval<const Vector &>()[0])>;
 };
-template <class Half> struct NumberOf<Twice<Half>> {
+template <class Half> struct NumberOf<DoubleWidth<Half>> {
   using type = typename NumberOf<Half>::type;
 };
 
@@ -36,7 +36,7 @@ template <class Vector> using number_of = typename NumberOf<Vector>::type;
 template <class Vector>
 inline constexpr int width_of = static_cast<int>(sizeof(Vector) / sizeof(number_of<Vector>));
 
-template <class Half> struct Twice {
+template <class Half> struct DoubleWidth {
   using Number = number_of<Half>;
   Half low, high;
 
@@ -45,17 +45,17 @@ template <class Half> struct Twice {
 };
 
 #define TALUS_TWICE(op)                                                                            \
-  template <class Half> TALUS_INLINE auto operator op(Twice<Half> a, Twice<Half> b)                \
+  template <class Half> TALUS_INLINE auto operator op(DoubleWidth<Half> a, DoubleWidth<Half> b)    \
   {                                                                                                \
-    return Twice<decltype(a.low op b.low)>{a.low op b.low, a.high op b.high};                      \
+    return DoubleWidth<decltype(a.low op b.low)>{a.low op b.low, a.high op b.high};                \
   }                                                                                                \
-  template <class Half> TALUS_INLINE auto operator op(Twice<Half> a, number_of<Half> b)            \
+  template <class Half> TALUS_INLINE auto operator op(DoubleWidth<Half> a, number_of<Half> b)      \
   {                                                                                                \
-    return Twice<decltype(a.low op b)>{a.low op b, a.high op b};                                   \
+    return DoubleWidth<decltype(a.low op b)>{a.low op b, a.high op b};                             \
   }                                                                                                \
-  template <class Half> TALUS_INLINE auto operator op(number_of<Half> a, Twice<Half> b)            \
+  template <class Half> TALUS_INLINE auto operator op(number_of<Half> a, DoubleWidth<Half> b)      \
   {                                                                                                \
-    return Twice<decltype(a op b.low)>{a op b.low, a op b.high};                                   \
+    return DoubleWidth<decltype(a op b.low)>{a op b.low, a op b.high};                             \
   }
 TALUS_TWICE(+)
 TALUS_TWICE(-)
@@ -70,11 +70,11 @@ TALUS_TWICE(&)
 TALUS_TWICE(|)
 #undef TALUS_TWICE
 
-template <class Half> TALUS_INLINE Twice<Half> operator-(Twice<Half> a)
+template <class Half> TALUS_INLINE DoubleWidth<Half> operator-(DoubleWidth<Half> a)
 {
   return {-a.low, -a.high};
 }
-template <class Half> TALUS_INLINE Twice<Half> operator~(Twice<Half> a)
+template <class Half> TALUS_INLINE DoubleWidth<Half> operator~(DoubleWidth<Half> a)
 {
   return {~a.low, ~a.high};
 }

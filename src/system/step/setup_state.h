@@ -11,8 +11,8 @@
 //
 // All questions are collective, and answered alike on all ranks.
 
-#ifndef TALUS_SYSTEM_STEP_DEFINITIONS_H
-#define TALUS_SYSTEM_STEP_DEFINITIONS_H
+#ifndef TALUS_SYSTEM_STEP_SETUP_STATE_H
+#define TALUS_SYSTEM_STEP_SETUP_STATE_H
 
 #include "lmptype.h"
 #include "pointers.h"
@@ -29,18 +29,18 @@ namespace Talus {
 
 class GranularSystem;
 
-class Definitions : protected LAMMPS_NS::Pointers {
+class SetupState : protected LAMMPS_NS::Pointers {
  public:
-  Definitions(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
+  SetupState(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
 
   /// LAMMPS lists the fixes that act, for whatever command: in each of its init(). And before that of the pair style
   /// makes coefficients of the script's words again.
-  void are_listed();
-  void laws_will_be_made();
+  void list_fixes();
+  void expect_new_laws();
   /// A run has been set up.
-  void are_set_up();
+  void record_setup();
   /// It has ended, which may have added or deleted particles; or a snapshot is restored.
-  void are_present();
+  void record();
   /// "" or what others may point to and is there no more as it was set up, or what LAMMPS has not listed,
   /// as text for messages: "fix w (wall/gran) has been defined".
   std::string lost() const;
@@ -49,10 +49,10 @@ class Definitions : protected LAMMPS_NS::Pointers {
   /// And of which particles each rank owns, in which order.
   std::string change_with_particles() const;
   /// The pair style is not the one that was set up.
-  bool have_another_pair_style() const { return is_set_up && then.pair != present_pair(); }
+  bool has_another_pair_style() const { return is_set_up && then.pair != present_pair(); }
   /// Where each rank owns the same particles as then, in the same order: whether ghosts are others, so that
   /// neighbor lists have to be made.
-  bool have_other_ghosts() const;
+  bool has_other_ghosts() const;
 
  private:
   struct One {
