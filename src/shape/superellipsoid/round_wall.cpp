@@ -213,13 +213,13 @@ int RoundWall::find(Vector (&normal)[most_places]) const
       {least, -sine}, {least, sine}, least < 0.71};    // at most a quarter of the circle is narrow
   Samples samples;
   if (!arc.is_wide && !narrow_down(arc, samples)) return 0;
-  Direction cut[most_cuts];
-  const int num_cuts = cuts(arc, cut);
+  Direction end[most_cuts + 2] = {arc.begin};    // of the parts
+  const int num_cuts = cuts(arc, end + 1);
+  end[num_cuts + 1] = arc.end;
   int count = 0;
   Sample before{};
   for (int part = 0; part <= num_cuts; part++) {
-    if (num_cuts || arc.is_wide)
-      sample(part ? cut[part - 1] : arc.begin, part < num_cuts ? cut[part] : arc.end, samples);
+    if (num_cuts || arc.is_wide) sample(end[part], end[part + 1], samples);
     for (int k = 0; k < lanes; k++) {
       const Sample &next = samples[k];
       const bool is_maximum = (part || k) && before.slope > 0.0 && next.slope <= 0.0;
