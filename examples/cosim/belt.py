@@ -11,7 +11,7 @@ under the mean load that the vertices have borne (Euler and Bernoulli, by Green'
 
 What is found goes to belt.csv, and to the picture belt.svg.
 
-  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  . build/env.sh
   [mpirun -np 2] /usr/bin/python3 examples/cosim/belt.py [--out DIR] [--quick]"""
 
 import argparse

@@ -10,7 +10,7 @@ each step (move free).
 
 What is found goes to float.csv, and to the plot float.svg.
 
-  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  . build/env.sh
   [mpirun -np 2] python3 examples/cosim/float.py [--out DIR] [--quick]"""
 
 import argparse

@@ -9,7 +9,7 @@ exchange of grains and water is the pressure drop: it follows Ergun until the be
 
 What is found goes to fluid.csv, and to the plot fluid.svg.
 
-  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  . build/env.sh
   [mpirun -np 2] python3 examples/cosim/fluid.py [--out DIR] [--quick]"""
 
 import argparse

@@ -12,7 +12,7 @@ rover.csv, with a plot in rover.svg, and a picture of the end to rover.png.
 
 or, with a build of one's own:
 
-  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  . build/env.sh
   [mpirun -np 2] python3 examples/cosim/rover.py [--out DIR] [--quick]
 
 MuJoCo lives on the first rank.  Its library and header must be there (Debian: libmujoco-dev), and a compiler: CXX, or c++."""

@@ -11,7 +11,7 @@ it could pull something) and driving torque go to wheel.csv, and to the plot whe
 
 or, with a build of one's own:
 
-  export PYTHONPATH=LAMMPS/python:TALUS/python LD_LIBRARY_PATH=LAMMPS-BUILD LAMMPS_PLUGIN_PATH=TALUS/build
+  . build/env.sh
   [mpirun -np 2] python3 examples/cosim/wheel.py [--out DIR] [--quick]"""
 
 import argparse
