@@ -336,6 +336,18 @@ class FixesThatRead(RecordsCase):
         for more in ("fix mom all momentum 10 linear 1 1 1", "fix cool all temp/rescale 15 0.5 0.5 0.01 1.0"):
             self.assert_same(more=more, np=2)
 
+    def test_boxes_that_deform(self):
+        """Fix deform moves particles at the end of each step, with the box or not."""
+        for words in ("x erate 0.3 y erate -0.2", "z erate -0.4 remap none", "x erate 0.3 remap v", "x wiggle 0.2 3.0",
+                      "xy erate 1.5"):
+            more = "change_box all triclinic\n" if "xy" in words else ""
+            with self.subTest(words):
+                self.assert_same(boundary="p p p", np=2, more=f"{more}fix box all deform 1 {words} units box")
+        self.assert_same(boundary="p p p", threads=2, more="group low id <= 60\nfix box low deform 1 x erate 0.3 units box")
+        variable = "variable grown equal 0.001*step\nvariable rate equal 1.0\nfix box all deform 1 x variable v_grown v_rate"
+        _, log = self.run_scene(PROXY, boundary="p p p", more=variable, run="run 20")
+        self.assertIn(HOST + "fix box (deform): may change particles at the end of every step: a larger Nevery", log)
+
 
 class HybridPairs(RecordsCase):
     """Other sub-styles of a hybrid pair style add their forces in the arrays of LAMMPS, within a step in the records."""

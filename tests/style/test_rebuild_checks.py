@@ -41,6 +41,25 @@ dump all all custom 40 dump.later id x y z vx vy vz
 dump_modify all format float %a
 run 80
 """
+# hardly moves: lists are made five times in 2000 steps, and not at step 1000 and 2000
+SHEARED = head(boundary="p p p", map="") + """
+region box prism 0 8 0 8 0 8 0 0 0
+create_box 1 box
+lattice sc 1.0
+create_atoms 1 box
+displace_atoms all random 0.01 0.01 0.01 7
+set type 1 diameter 0.95 density 1.0
+velocity all create 0.02 11
+pair_style gran/hooke/history 1000 NULL 20 NULL 0.3 1
+pair_coeff * *
+neighbor 0.3 bin
+timestep 0.001
+fix move all nve/sphere
+fix shear all deform 1 xy erate 0.003 remap v
+dump all all custom 50 dump id vx vy vz
+dump_modify all sort id format float %a
+run 2100
+"""
 DELAYED = "made too late: particles moved by more than half of the skin before the first check"
 UNFORESEEN = "made too late: between two checks"
 
@@ -125,6 +144,17 @@ class RebuildChecks(SceneCase):
             self.assertEqual(dangerous > 0, late)
             self.assertEqual(UNFORESEEN in log, late)
             self.assertNotIn(DELAYED, log)
+
+    def test_no_lists_of_ours_where_velocities_change_at_boundaries(self):
+        """LAMMPS changes them when it makes lists: in other steps they would be others in output."""
+        builds, frames = [], []
+        for words in (), ("-sf", "talus"):
+            log = self.run_lammps(SHEARED, np=2, arguments=words).log
+            builds.append(re.findall(r"Neighbor list builds = (\d+)", log))
+            frames.append(read_dump(self.path("dump")))
+        self.assertEqual(*builds)
+        for stock, ours in zip(*frames):
+            self.assertLess(max_difference(stock, ours, ("vx", "vy", "vz")), 1e-9, stock.step)
 
 
 if __name__ == "__main__":

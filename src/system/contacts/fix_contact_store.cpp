@@ -105,7 +105,7 @@ void FixContactStore::init()
 {
   Talus::require_intact_particles(lmp);
   comm_border = has_pairs() ? size_border : 0;
-  force_reneighbor = has_pairs() ? 1 : 0;
+  force_reneighbor = has_pairs() && !domain->deform_vremap ? 1 : 0;
   was_used = true;
   if (has_pairs())
     init_for_pairs();
@@ -153,7 +153,9 @@ bigint FixContactStore::next_refresh(bigint step) const
 }
 
 /* Runs before every migration of particles in a run; the rebuild at a refresh is forced, so that
-   the order of sums changes at the same steps whatever the skin is. */
+   the order of sums changes at the same steps whatever the skin is. Not where velocities change at
+   the boundaries (fix deform with remap v), which LAMMPS does when it builds lists: those are periodic
+   boxes, where bits depend on the skin anyway, and the next rebuild will do. */
 
 void FixContactStore::pre_exchange()
 {
@@ -161,7 +163,7 @@ void FixContactStore::pre_exchange()
   if (!has_pairs()) return;
   system->rebuild().release_pairs();
   keep_positions();
-  if (update->ntimestep != next_reneighbor) return;
+  if (update->ntimestep < next_reneighbor) return;
   Talus::in_ranges(atom->nlocal, comm->nthreads, [this](int, int begin, int end) {
     for (int i = begin; i < end; i++) refresh_key(i);
   });

@@ -12,6 +12,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "fix.h"
+#include "fix_deform.h"
 #include "group.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -31,6 +32,12 @@ constexpr int within_steps =
     INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
 constexpr int both_kicks = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 
+bool moves_particles_with_box(const Fix *fix)
+{
+  const auto *const deform = dynamic_cast<const FixDeform *>(fix);
+  return deform && deform->remapflag == Domain::X_REMAP;
+}
+
 }    // namespace
 
 /* As in the sources of both hosts. What they do in steps with energies or virials may be more: those
@@ -39,20 +46,35 @@ constexpr int both_kicks = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 const FixCalls::Window *FixCalls::window_of(const Fix *fix)
 {
   static const Window windows[] = {
-      {"addforce", POST_FORCE, X, F},        {"addtorque", POST_FORCE, X | V, F},
-      {"aveforce", POST_FORCE, X, F},        {"drag", POST_FORCE, X, F},
-      {"efield", POST_FORCE, X, F | TORQUE}, {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE},
-      {"gravity", POST_FORCE, X, F},         {"heat/flow", PRE_FORCE | FINAL_INTEGRATE, 0, 0},
-      {"indent", POST_FORCE, X, F},          {"langevin", POST_FORCE, V | OMEGA, F | TORQUE},
-      {"lineforce", POST_FORCE, 0, F},       {"move", both_kicks, F, X | V | OMEGA},
-      {"nve", both_kicks, F, X | V},         {"nve/limit", both_kicks, F, X | V},
-      {"nve/noforce", both_kicks, V, X},     {"planeforce", POST_FORCE, 0, F},
-      {"setforce", POST_FORCE, X, F},        {"smd", POST_FORCE, X, F, true},
-      {"spring", POST_FORCE, X, F, true},    {"spring/self", POST_FORCE, X, F},
-      {"viscous", POST_FORCE, V, F},         {"viscous/sphere", POST_FORCE, OMEGA, TORQUE},
-      {"wall/harmonic", POST_FORCE, X, F},   {"wall/lj1043", POST_FORCE, X, F},
-      {"wall/lj126", POST_FORCE, X, F},      {"wall/lj93", POST_FORCE, X, F},
-      {"wall/morse", POST_FORCE, X, F},      {"wall/reflect", POST_INTEGRATE, 0, X | V},
+      {"addforce", POST_FORCE, X, F},
+      {"addtorque", POST_FORCE, X | V, F},
+      {"aveforce", POST_FORCE, X, F},
+      {"deform", END_OF_STEP, X, X},
+      {"drag", POST_FORCE, X, F},
+      {"efield", POST_FORCE, X, F | TORQUE},
+      {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE},
+      {"gravity", POST_FORCE, X, F},
+      {"heat/flow", PRE_FORCE | FINAL_INTEGRATE, 0, 0},
+      {"indent", POST_FORCE, X, F},
+      {"langevin", POST_FORCE, V | OMEGA, F | TORQUE},
+      {"lineforce", POST_FORCE, 0, F},
+      {"move", both_kicks, F, X | V | OMEGA},
+      {"nve", both_kicks, F, X | V},
+      {"nve/limit", both_kicks, F, X | V},
+      {"nve/noforce", both_kicks, V, X},
+      {"planeforce", POST_FORCE, 0, F},
+      {"setforce", POST_FORCE, X, F},
+      {"smd", POST_FORCE, X, F, true},
+      {"spring", POST_FORCE, X, F, true},
+      {"spring/self", POST_FORCE, X, F},
+      {"viscous", POST_FORCE, V, F},
+      {"viscous/sphere", POST_FORCE, OMEGA, TORQUE},
+      {"wall/harmonic", POST_FORCE, X, F},
+      {"wall/lj1043", POST_FORCE, X, F},
+      {"wall/lj126", POST_FORCE, X, F},
+      {"wall/lj93", POST_FORCE, X, F},
+      {"wall/morse", POST_FORCE, X, F},
+      {"wall/reflect", POST_INTEGRATE, 0, X | V},
   };
   const auto *const found =
       std::find_if(std::begin(windows), std::end(windows),
@@ -75,6 +97,17 @@ bool FixCalls::only_reads(const Fix *fix)
       "halt",     "print",     "store/state",      "vector"};
   return std::any_of(std::begin(styles), std::end(styles),
                      [fix](const char *style) { return std::strcmp(style, fix->style) == 0; });
+}
+
+/* Clumps are moved with the box. */
+
+bool FixCalls::only_moves(const Fix *fix) const
+{
+  const Window *const window = window_of(fix);
+  const auto fixes = fix_list(*modify);
+  return window && (window->calls & END_OF_STEP) != 0 && reason_of_variables(*fix).empty() &&
+         std::none_of(fixes.begin(), fixes.end(),
+                      [](const Fix *other) { return other->rigid_flag != 0; });
 }
 
 std::string FixCalls::reason_against(const Fix *fix)
@@ -177,7 +210,7 @@ void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 
 void FixCalls::start_run()
 {
-  for (Phase *phase : {&initial, &post, &forces, &final}) phase->clear();
+  for (Phase *phase : {&initial, &post, &forces, &final, &end}) phase->clear();
   groups.clear();
   readers.clear();
   const std::vector<Fix *> fixes = fix_list(*modify);
@@ -189,6 +222,7 @@ void FixCalls::start_run()
     if (calls & POST_FORCE) forces.push_back(one);
     if (calls & FINAL_INTEGRATE) final.push_back(one);
     if (calls & END_OF_STEP && only_reads(fix)) readers.push_back(fix);
+    if (calls & END_OF_STEP && one.window && moves_particles_with_box(fix)) end.push_back(one);
     if (std::strcmp(fix->style, "GROUP") == 0) groups.push_back(fix);
   }
   asking_groups = std::any_of(groups.begin(), groups.end(),
@@ -254,7 +288,7 @@ bool FixCalls::groups_are_due() const
 
 void FixCalls::forget_members()
 {
-  for (Phase *phase : {&initial, &post, &forces, &final})
+  for (Phase *phase : {&initial, &post, &forces, &final, &end})
     for (Called &called : *phase) called.lists = -1;
 }
 
@@ -296,8 +330,21 @@ bool FixCalls::somebody_looks() const
 void FixCalls::end_of_step()
 {
   if (!modify->n_end_of_step) return;
-  if (system.pipeline().motion().holds_state() && somebody_looks()) system.step().show_step();
+  if (!system.pipeline().motion().holds_state()) return modify->end_of_step();
+  if (somebody_looks()) system.step().show_step();
+  const auto copy_moved = [this](bool to_arrays) {
+    bool any = false;
+    for (Called &called : end) {
+      if (update->ntimestep % called.fix->nevery) continue;
+      find_members(called);
+      copy(called, X, to_arrays);
+      any = true;
+    }
+    return any;
+  };
+  copy_moved(true);
   modify->end_of_step();
+  if (copy_moved(false)) system.step().forget_moves();
 }
 
 }    // namespace Talus

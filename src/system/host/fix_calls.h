@@ -2,7 +2,8 @@
 //
 // Calls the fixes of a step, as Modify does. In steps in the records fixes of LAMMPS that are known
 // to read and change a few quantities of the particles of their group only see these in the arrays of
-// LAMMPS: before the call they are copied there, and what the fix may change is copied back. Fixes
+// LAMMPS: before the call they are copied there, and what the fix may change is copied back. So is what fix deform
+// moves at the end of a step. Fixes
 // that read particles at the end of a step, such as fix ave/time, find all of them there, complete,
 // while the run goes on in the records; and so does what updates dynamic groups. All other fixes of
 // LAMMPS that act within steps keep a run from having steps in the records.
@@ -32,7 +33,9 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   std::string reason_against(const LAMMPS_NS::Fix *fix);
   /// What this fix of LAMMPS does at the end of a step changes no particle.
   static bool only_reads(const LAMMPS_NS::Fix *fix);
-  /// One of these reads particles at the end of the present step.
+  /// Or changes the positions of its group alone, at most: it is called in the records as well.
+  bool only_moves(const LAMMPS_NS::Fix *fix) const;
+  /// One of the former reads particles at the end of the present step.
   bool somebody_looks() const;
   /// What decides on members of a dynamic group may ask for anything in any step.
   bool groups_may_ask() const { return asking_groups; }
@@ -77,7 +80,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   void copy(const Called &called, int quantities, bool to_arrays) const;
 
   GranularSystem &system;
-  Phase initial, post, forces, final;               // of this run
+  Phase initial, post, forces, final, end;          // of this run
   std::vector<LAMMPS_NS::Fix *> groups, readers;    // that are dynamic; at the end of a step
   bool asking_groups = false;
 };

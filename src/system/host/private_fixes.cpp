@@ -14,6 +14,7 @@
 #include "fix_ave_histo.h"
 #include "fix_ave_time.h"
 #include "fix_aveforce.h"
+#include "fix_deform.h"
 #include "fix_efield.h"
 #include "fix_gravity.h"
 #include "fix_indent.h"
@@ -81,6 +82,7 @@ TALUS_PRIVATE_NAME(GravityT, FixGravity, tstr)
 TALUS_PRIVATE_NAME(GravityX, FixGravity, xstr)
 TALUS_PRIVATE_NAME(GravityY, FixGravity, ystr)
 TALUS_PRIVATE_NAME(GravityZ, FixGravity, zstr)
+TALUS_PRIVATE_MEMBER(DeformingVariables, int FixDeform::*, &FixDeform::varflag)
 TALUS_PRIVATE_MEMBER(WallVariables, int FixWall::*, &FixWall::varflag)
 TALUS_PRIVATE_MEMBER(NextTime, bigint FixAveTime::*, &FixAveTime::nvalid)
 TALUS_PRIVATE_MEMBER(NextAtom, bigint FixAveAtom::*, &FixAveAtom::nvalid)
@@ -181,6 +183,8 @@ FixVariables variables_of(const Fix &fix)
                    gravity->*pointer_to(GravityZ{})};
   } else if (const auto *reflect = as<FixWallReflect>(fix)) {
     found.more = reflect->*pointer_to(ReflectingVariables{}) != 0;
+  } else if (const auto *deforming = as<FixDeform>(fix)) {
+    found.more = deforming->*pointer_to(DeformingVariables{}) != 0;
   } else if (const auto *wall = as<FixWall>(fix)) {
     found.more = wall->*pointer_to(WallVariables{}) != 0;
   }

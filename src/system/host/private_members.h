@@ -18,7 +18,7 @@
 //   FixPour             nfirst, ninserted, random        not in restart files
 //   FixGravity          disable, names of variables      the field alone
 //   FixAddForce ...     names of variables, idregion     what depends on time alone can be called in the records
-//   FixWall, FixWallReflect, FixLangevin                 flags: the same
+//   FixWall, FixWallReflect, FixLangevin, FixDeform      flags: the same
 //   Region              point, runit, names of variables where it rotates, and what moves it
 //   RegBlock ...        parameters of the six styles     which particles may touch it (of RegPlane public
 //                                                        since 2026)

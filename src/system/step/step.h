@@ -65,6 +65,8 @@ class Step : protected LAMMPS_NS::Pointers {
   /// neighbor lists were made, or a little more; and exactly. Infinity if that is not known.
   double moved_at_most() { return largest_move.at_most(contacts()); }
   double moved_since_rebuild() { return largest_move.exactly(contacts()); }
+  /// Others have moved particles, at the end of a step.
+  void forget_moves() { largest_move.forget(); }
   /// The forces of all contacts between particles. `tally`, if given, is called for each of them.
   void compute_contacts(const std::function<void(const TalliedContact &)> *tally);
   /// Changes of velocities are kept: for second order, and for the work of contacts.

@@ -106,7 +106,9 @@ std::string StepsInRecords::find_reason_against(bool pairs_computed)
                                : acts_within_steps(fix, mask) ? calls.reason_against(fix)
                                                               : "";
     if (!reason.empty()) return std::string("fix ") + fix->id + " (" + fix->style + "): " + reason;
-    if ((mask & END_OF_STEP) == 0 || fix == system.store() || FixCalls::only_reads(fix)) continue;
+    if ((mask & END_OF_STEP) == 0 || fix == system.store() || FixCalls::only_reads(fix) ||
+        calls.only_moves(fix))
+      continue;
     if (fix->nevery <= 1)
       return std::string("fix ") + fix->id + " (" + fix->style +
              "): may change particles at the end of every step: a larger Nevery";
