@@ -239,9 +239,9 @@ to .6 %.)""")
 N/m along the normal and 1.48e7 N/m along the plane, or hertz/material. Where the sphere slides to the end, above {SLIDES:.0f} degrees
 here, the answer depends on friction alone and is compared with what was measured; below, with linear springs, with the equations of the
 law, integrated apart. Orders of the last rows: root mean square of the relative error of the height of the first bounce of case 01, e =
-.8, over 13 stiffnesses, that is moments of touching within a step. Order 2 is a word of [the integrator](../order_2.md); its contact must
+.8, over 13 stiffnesses, that is moments of touching within a step. Order 2 is a word of [the integrator](../fix_nve_sphere_symplectic.md#order-2); its contact must
 not pull (`limit_damping`), and ends earlier in the exact motion too. Case 06, the terminal velocity in a fluid, is an [example of
-coupling](../coupling_examples.md). Input scripts: `validate/in.mfix_fall`, `validate/in.mfix_stack`, `validate/in.mfix_slip`; 05:
+coupling](../coupling.md#order-and-cost). Input scripts: `validate/in.mfix_fall`, `validate/in.mfix_stack`, `validate/in.mfix_slip`; 05:
 `tests/lib/impact_tables.py`.""")
     bench.section.plot("", "Left: heights of case 01, kn = 1e4 N/m, dots: exact. Middle: case 05, dots: measured. Right: errors of the "
                        "first bounce over the steps per contact, lines: slopes 1 and 2", lambda plt: draw(plt, shown, angles, errors))

@@ -11,6 +11,10 @@ ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.pat
 PAGES = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "doc", "*.md")))]
 PROBLEMS = sorted(glob.glob(os.path.join(ROOT, "doc", "validation", "*.md")))
 LONGEST = 1500      # words of a page
+LONGER = {          # those that are looked things up in, or have many lines of scripts
+    "contact_laws.md": 1600, "coupling.md": 1650, "fix_large_body.md": 1900, "from_lammps.md": 2050, "from_liggghts.md": 2550,
+    "messages.md": 3200, "method.md": 2600}
+ALL = 48000         # words of all pages
 
 
 def read(path):
@@ -48,8 +52,12 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(set(listed) | {"README.md"}), [os.path.basename(page) for page in PAGES[1:]])
 
     def test_no_page_is_long(self):
+        total = 0
         for page in PAGES[1:]:
-            self.assertLessEqual(len(read(page).split()), LONGEST, f"divide {os.path.relpath(page, ROOT)}")
+            words = len(read(page).split())
+            self.assertLessEqual(words, LONGER.get(os.path.basename(page), LONGEST), f"shorten {os.path.relpath(page, ROOT)}")
+            total += words
+        self.assertLessEqual(total, ALL, "shorten the longest that say the least")
 
     def test_first_page(self):
         text = read(PAGES[0])
