@@ -209,7 +209,7 @@ class Figures(unittest.TestCase):
         order_1, *stock = [head.index(f"{name}: dt") + 2 for name in ("order 1", "stock", "granular")]     # columns of "times"
         choosing = read("doc", "choosing.md")
         row = next(row for row in table(choosing[choosing.index("## Which time step"):]) if row[0].startswith("motion of a few"))
-        words = re.search(r"order 2 needs ([\d.]+) to (\d+) times less.*?and (\d+) to (\d+)", choosing, re.S)
+        words = re.search(r"order 2 needs ([\d.]+) to (\d+) times less.*?and (\d+) to (\d+)", " ".join(choosing.split()))
         for error, columns, shown in (("1e-04", [order_1], row[4].split(" to ")), ("1e-04", stock, row[5].split(" to ")),
                                       ("1e-03", stock, words.groups()[:2]), ("1e-04", stock, words.groups()[2:])):
             found = [min(float(cells[k].lstrip("~")) for k in columns if cells[k] != "-")
