@@ -17,7 +17,6 @@ LONGER = {          # those in which things are looked up, or with many lines of
 ALL = 45000         # words of all pages
 
 
-
 def read(path):
     with open(path) as file:
         return file.read()
