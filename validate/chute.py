@@ -12,7 +12,7 @@ TITLE = "Flow down an incline"
 QUESTION = """Spheres flow steadily down a rough plane between the angle where they stop and the one where they run away. The solid fraction
 does not vary with depth, and the speed follows Bagnold's profile, v = A (h^(3/2) - (h - z)^(3/2)) (Silbert, Ertas, Grest, Halsey, Levine,
 Plimpton, Phys. Rev. E 64, 051302, 2001). The inertial number I = d shear rate/sqrt(p/rho) then is one for the flow, and the slope follows
-from it as mu(I) = mu_1 + (mu_2 - mu_1)/(I_0/I + 1), for glass beads with mu_1 = .382, mu_2 = .643, I_0 = .279 (Jop, Forterre, Pouliquen,
+from it as mu(I) = mu_1 + (mu_2 - mu_1)/(I_0/I + 1), for glass beads with mu_1 = 0.382, mu_2 = 0.643, I_0 = 0.279 (Jop, Forterre, Pouliquen,
 Nature 441, 727, 2006)."""
 
 ANGLES = (21.0, 22.5, 24.0, 25.5)
@@ -85,7 +85,7 @@ def measure(bench):
     bench.section.result(f"largest mean speed of a layer at {STOPS} degrees", float(numpy.abs(still[1][still[2] > 0.3]).max()), 0.0, 1e-3)
     bench.section.table(["slope, degrees", "height", "A", "A over that of the time before", "variance explained", "solid fraction",
                          "its deviation", "I", "tan(slope)", "mu(I) of Jop et al."], rows)
-    bench.section.text(f"""Spheres of one size, friction .5, e = .88, linear springs (stiffness 2e4 m g/d, after Silbert et al., whose results
+    bench.section.text(f"""Spheres of one size, friction 0.5, e = 0.88, linear springs (stiffness 2e4 m g/d, after Silbert et al., whose results
 do not depend on it), {HEIGHT} diameters deep over a base of fixed spheres at random places, 10 diameters long and wide, periodic. Units:
 diameter, mass of a sphere, gravity. Layers within two diameters of base and surface are left out. Near the slope on which a
 layer of its height stops, here at {min(ANGLES):.0f} degrees, the profile becomes a straight line (Silbert, Landry, Grest, Phys. Fluids 15, 1, 2003): it is not

@@ -55,7 +55,7 @@ def measure(bench):
         rows.append([aspect, out, lube(aspect), aspect if aspect < 3 else float("nan")])
         bench.section.record(aspect=aspect, run_out=out, lube=lube(aspect))
     bench.section.table(["a", "r/r0 - 1", "Lube et al.", "Lajeunesse et al."], rows)
-    bench.section.text(f"""Spheres of 2 mm +- 5 %, friction .5 among them and at the floor, rolling resistance .1 (`cdt capped`), column of
+    bench.section.text(f"""Spheres of 2 mm +- 5 %, friction 0.5 among them and at the floor, rolling resistance 0.1 (`cdt capped`), column of
 {bench.size(RADIUS, 6.0):.0f} diameters radius. The deposit ends where less than half of a ring of one diameter is covered. Bounds: 20 % below
 the lower and above the higher of both measurements. Input script: `validate/in.collapse`.""")
     bench.section.plot("", "Run-out over the aspect ratio of the column", lambda plt: draw(plt, found))

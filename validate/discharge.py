@@ -12,9 +12,9 @@ import stl
 TITLE = "Discharge of a bin"
 QUESTION = """Grains run out of a flat-bottomed bin through a round hole of the diameter D at a rate that does not depend on what stands
 above: W = C rho_b sqrt(g) (D - k d)^(5/2), with the bulk density rho_b and the diameter d of the grains (Beverloo, Leniger, van de
-Velde, Chem. Eng. Sci. 15, 260, 1961: C = .58, k = 1.4). C is nearly the same for any material that was tested, while k varies by up to a
+Velde, Chem. Eng. Sci. 15, 260, 1961: C = 0.58, k = 1.4). C is nearly the same for any material that was tested, while k varies by up to a
 factor of 2 among grains (Madrid, Darias, Pugnaloni, Powders and Grains 2017, arXiv:1611.05277, after Nedderman, Statics and Kinematics
-of Granular Materials, 1992): here C may be 10 % off .58, and k from 1 to 2."""
+of Granular Materials, 1992): here C may be 10 % off 0.58, and k from 1 to 2."""
 
 D, GRAVITY = 0.002, 9.81
 OUTLETS = (6, 7, 8, 10, 12)      # in diameters
@@ -62,12 +62,12 @@ def measure(bench):
     for row in rows:
         bench.section.record(outlet=row[0], rate_g_s=row[1], scaled=row[2], fitted=row[3])
     bench.section.table(["hole over grain", "rate, g/s", "W/(rho_b sqrt(g) d^(5/2))", "fitted"], rows)
-    bench.section.text(f"""Spheres of 2 mm +- 5 % (glass density, hertz/material 1e7 Pa, e = .5, friction .5, no rolling resistance) in a bin of
-30 mm radius, filled to 60 mm; bulk density {bulk:.0f} kg/m^3. The rate is that of .4 s, .1 s after the hole was opened. The walls
+    bench.section.text(f"""Spheres of 2 mm +- 5 % (glass density, hertz/material 1e7 Pa, e = 0.5, friction 0.5, no rolling resistance) in a bin of
+30 mm radius, filled to 60 mm; bulk density {bulk:.0f} kg/m^3. The rate is that of 0.4 s, 0.1 s after the hole was opened. The walls
 are said not to matter in a bin wider than 2.5 D and D + 30 d (Nedderman, after Mankoc et al., Granular Matter, 2007,
 doi:10.1007/s10035-007-0062-2): this one is as wide as the former for the widest hole, and narrower than the latter. Input script:
 `validate/in.discharge`; the floor is a mesh that `validate/discharge.py` writes.""")
-    bench.section.plot("", "Rate to the power 2/5 over the diameter of the hole, and the line of Beverloo with C = .58, k = 1.4",
+    bench.section.plot("", "Rate to the power 2/5 over the diameter of the hole, and the line of Beverloo with C = 0.58, k = 1.4",
                        lambda plt: draw(plt, outlets, scaled, slope, start))
 
 

@@ -91,7 +91,7 @@ class Surface:
 
 
 def surface(axis, grains):
-    """As the photographs were treated: binary at 10/255 of the largest value, cut to r^2 < .6 R^2, highest pixel of each column."""
+    """As the photographs were treated: binary at 10/255 of the largest value, cut to r^2 < 0.6 R^2, highest pixel of each column."""
     filled = grains > 10.0 / 255.0 * grains.max()
     inside = axis[:, None] ** 2 + axis[None, :] ** 2 < 0.6 * RADIUS**2
     x, z = [], []
@@ -183,10 +183,10 @@ def beside_liggghts(bench, law, rpm, seed):
 
 def words(bench):
     published = ", ".join(f"{near} and {whole} at {rpm}" for rpm, (near, whole) in PUBLISHED.items())
-    bench.section.text(f"""The law is that of the calibration: Hertz with E = 5e6 Pa, nu = .3, e = .3, friction .5613 with history, rolling
-resistance `cdt` of .2931, for grains and drum alike, time step 1e-5 s ([from LIGGGHTS](../from_liggghts.md) has the words). The drum is an
+    bench.section.text(f"""The law is that of the calibration: Hertz with E = 5e6 Pa, nu = 0.3, e = 0.3, friction 0.5613 with history, rolling
+resistance `cdt` of 0.2931, for grains and drum alike, time step 1e-5 s ([from LIGGGHTS](../from_liggghts.md) has the words). The drum is an
 exact cylinder. Input script: `validate/in.drum`. A surface is found as from the photographs: the mean number of grains over each
-pixel in 100 states of half a second, filled where it is more than 10/255 of its largest value, cut to r^2 < .6 R^2, highest pixel of
+pixel in 100 states of half a second, filled where it is more than 10/255 of its largest value, cut to r^2 < 0.6 R^2, highest pixel of
 each column. Slopes published for LIGGGHTS with these values, near the axis and of the whole line: {published} turns per minute.
 `sds` has a spring
 of 150 N/m. Friction at the two ends makes the drum steep: a slice

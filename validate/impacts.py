@@ -161,7 +161,7 @@ def measure(bench):
     for name, error in zip(("overlap", "force", "duration"), hertz):
         bench.section.result(f"elastic impacts, relative error of the largest {name}" if name != "duration" else
                              "elastic impacts, relative error of the duration", error, 0.0, ELASTIC)
-    bench.section.result("given restitution .2 to 1, largest error", e_error, 0.0, 1e-3)
+    bench.section.result("given restitution 0.2 to 1, largest error", e_error, 0.0, 1e-3)
     sliding = max(abs(angles[a][0] / (1 - 0.092 * 1.98 / math.tan(math.radians(a))) - 1) for a in (40, 50, 60, 70, 80, 85))
     bench.section.result("oblique, relative error of e_t where it slides to the end", sliding, 0.0, 1e-3)
     curve = {row[0]: row[1:3] for row in DIGITISED_4}
@@ -179,24 +179,24 @@ def measure(bench):
     bench.section.table(["x", "patch", "curve"], [[x, y, table[x]] for x, y in spins])
     compare_normal_speed(bench, *tangential)
     compare_pairs(bench, *meetings)
-    bench.section.text("""First table: aluminium oxide, 3.9 m/s, e = .98, friction .092, angles from the normal. Second: aluminium alloy,
-.2 m/s, e = .5, friction .4; x = (7/2) mu (1 + e) v_n/v_t, patch: its tangential speed after over before. Where the patch sticks
+    bench.section.text("""First table: aluminium oxide, 3.9 m/s, e = 0.98, friction 0.092, angles from the normal. Second: aluminium alloy,
+0.2 m/s, e = 0.5, friction 0.4; x = (7/2) mu (1 + e) v_n/v_t, patch: its tangential speed after over before. Where the patch sticks
 throughout (x above 4) the curve tells how a law damps tangential motion: here the normal damping, which is the default, damps more.
 Curves to 5 % of full scale. Parameters and curves: `tests/lib/impact_tables.py`; `tests/physics/test_impact_tables.py` has more of
 them.""")
-    bench.section.text("""Third table, test 5: steel (E = 208 GPa, nu = .3) of 10 um radius, 5 m/s along the normal, e = 1, friction .3;
+    bench.section.text("""Third table, test 5: steel (E = 208 GPa, nu = 0.3) of 10 um radius, 5 m/s along the normal, e = 1, friction 0.3;
 recoil: tangential over normal speed of the patch afterwards, over mu; angular velocity over mu v_n/r. The published curves of this test
 are not met by the law that meets those of test 4: with it the patch comes back with the sign it had (the line in the picture), as its
 equations say, which are integrated apart from LAMMPS for the rows of the default law. The curves are met by a force that grows by
 increments, with half of Mindlin's stiffness, as if the plane were rigid along its normal, and as compliant as the sphere along itself:
-this law, `tangential mindlin/force` with kt = 4 G_eff, is what the rows of steel and polyethylene (E = 1 GPa, nu = .4) compare with them.
+this law, `tangential mindlin/force` with kt = 4 G_eff, is what the rows of steel and polyethylene (E = 1 GPa, nu = 0.4) compare with them.
 Finite elements, where a part of the patch slips before all of it does, are between the two (crosses in the picture); they are not
 compared.""")
     bench.section.text("""Fourth table, tests 7 and 8, spheres of the alloy of the second: the published answer for two equal spheres that
-approach with .2 m/s each and spin opposite ways (.2 to 22 rad/s) is that nothing but the normal speed changes. If they spin the same way,
+approach with 0.2 m/s each and spin opposite ways (0.2 to 22 rad/s) is that nothing but the normal speed changes. If they spin the same way,
 which is no part of test 7, they slide on each other: where they do to the end, the tangential impulse is mu m (1 + e) v_n, with m = m_1
-m_2/(m_1 + m_2) and the speed v_n of their approach, and both spins follow. In test 8 a sphere of .1 m radius falls with .2 m/s on one of
-.5 m, 1000 times as dense, and in case A 1000 times as stiff; the published curves of both cases are one up to x = 6, and that of test 6.
+m_2/(m_1 + m_2) and the speed v_n of their approach, and both spins follow. In test 8 a sphere of 0.1 m radius falls with 0.2 m/s on one of
+0.5 m, 1000 times as dense, and in case A 1000 times as stiff; the published curves of both cases are one up to x = 6, and that of test 6.
 Above x = 4, see there. Parameters and curves: `tests/lib/impact_pairs.py`.""")
     bench.section.plot("", "Left: test 4, tangential restitution (filled line) and angular velocity over its largest value. Right: test 5, "
                        "recoil of steel. Points: published curves, crosses: finite elements", lambda plt: draw(plt, angles, *tangential))

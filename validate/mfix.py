@@ -35,13 +35,13 @@ LADDER = (16, 32, 64, 128, 256)
 SLIPS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 
 # 05: angle from the normal and tangential restitution, angle and angular velocity (rad/s) as measured
-MEASURED_E = ((2.2, .797), (4.2, .746), (9.8, .675), (20.2, .599), (30.4, .690), (39.5, .774), (49.6, .848),
-              (71.1, .937), (79.2, .970), (85.2, .979))
+MEASURED_E = ((2.2, 0.797), (4.2, 0.746), (9.8, 0.675), (20.2, 0.599), (30.4, 0.690), (39.5, 0.774), (49.6, 0.848),
+              (71.1, 0.937), (79.2, 0.970), (85.2, 0.979))
 MEASURED_W = ((5.9, -135), (10.9, -261), (21.1, -574), (31.1, -612), (39.0, -595), (50.2, -450),
               (60.1, -376), (70.0, -243), (78.6, -142), (84.3, -71))
 FRICTION, SPEED, SMALL = 0.092, 3.9, 0.0025
 SPRINGS = 1.72e7, 1.48e7    # along the normal, along the plane
-GLASS = Material(70e9, .25, 2500.0)
+GLASS = Material(70e9, 0.25, 2500.0)
 SLIDES = 35.0               # degrees: from here on the sphere slides to the end of the impact
 
 
@@ -226,22 +226,22 @@ def measure(bench):
     for order, rows in errors.items():
         for n, error in rows:
             bench.section.record(order=order, steps_per_contact=n, error=error)
-    bench.section.text(f"""01: diameter .2 m, 2600 kg/m^3, from .5 m; hooke with kn = 1e4, 2.5e4, 5e4 and 1e5 N/m, e = .6, .7, .8, .9. The
+    bench.section.text(f"""01: diameter 0.2 m, 2600 kg/m^3, from 0.5 m; hooke with kn = 1e4, 2.5e4, 5e4 and 1e5 N/m, e = 0.6, 0.7, 0.8, 0.9. The
 stages of free fall, damped oscillator and rebound follow each other exactly; e is that of the damping without weight. {STEPS} steps per
-contact, as in 02 and 03. 02: the same with kn = 5e4, 5e5 and 5e6 N/m, e = .5 to 1, {NUMBER} bounces, against the exact motion of the
-springs, and against hard spheres, whose tops are (.5 m - R) e^(2 k) + R: these have no weight while they touch, so that the distance
+contact, as in 02 and 03. 02: the same with kn = 5e4, 5e5 and 5e6 N/m, e = 0.5 to 1, {NUMBER} bounces, against the exact motion of the
+springs, and against hard spheres, whose tops are (0.5 m - R) e^(2 k) + R: these have no weight while they touch, so that the distance
 falls as the duration of a contact, as 1/sqrt(kn). 03: spheres of 1 mm, the lower one of 20000, the upper one of 10000 kg/m^3, between
-planes that are 1.8 mm apart, kn = 1000 N/m, e = .5 to 1, for 1 ms, against the method of Runge and Kutta of order 4. 04: a sphere of 1
-mm, 10000 kg/m^3, starts with .1 m/s on a plane that bears its weight, kn = kt = 1e4 N/m, no damping, friction .2 to 1; it rolls after 2
-u/(7 mu g), with 5/7 of its speed; {STEPS // 10} steps per contact. (The results that MFIX keeps for its own tests miss that moment by .04
-to .6 %.)""")
-    bench.section.text(f"""05: aluminium oxide, 5 mm, 3.9 m/s, friction .092, e = 1, on glass (70 GPa, nu = .25); linear springs of 1.72e7
+planes that are 1.8 mm apart, kn = 1000 N/m, e = 0.5 to 1, for 1 ms, against the method of Runge and Kutta of order 4. 04: a sphere of 1
+mm, 10000 kg/m^3, starts with 0.1 m/s on a plane that bears its weight, kn = kt = 1e4 N/m, no damping, friction 0.2 to 1; it rolls after 2
+u/(7 mu g), with 5/7 of its speed; {STEPS // 10} steps per contact. (The results that MFIX keeps for its own tests miss that moment by 0.04
+to 0.6 %.)""")
+    bench.section.text(f"""05: aluminium oxide, 5 mm, 3.9 m/s, friction 0.092, e = 1, on glass (70 GPa, nu = 0.25); linear springs of 1.72e7
 N/m along the normal and 1.48e7 N/m along the plane, or hertz/material. Where the sphere slides to the end, above {SLIDES:.0f} degrees
 here, the answer depends on friction alone and is compared with what was measured; below, with linear springs, with the equations of the
 law, integrated apart. Orders of the last rows: root mean square of the relative error of the height of the first bounce of case 01, e =
-.8, over 13 stiffnesses, that is moments of touching within a step. Order 2 is a word of [the integrator](../order_2.md); its contact must
+0.8, over 13 stiffnesses, that is moments of touching within a step. Order 2 is a word of [the integrator](../fix_nve_sphere_symplectic.md#order-2); its contact must
 not pull (`limit_damping`), and ends earlier in the exact motion too. Case 06, the terminal velocity in a fluid, is an [example of
-coupling](../coupling_examples.md). Input scripts: `validate/in.mfix_fall`, `validate/in.mfix_stack`, `validate/in.mfix_slip`; 05:
+coupling](../coupling.md#order-and-cost). Input scripts: `validate/in.mfix_fall`, `validate/in.mfix_stack`, `validate/in.mfix_slip`; 05:
 `tests/lib/impact_tables.py`.""")
     bench.section.plot("", "Left: heights of case 01, kn = 1e4 N/m, dots: exact. Middle: case 05, dots: measured. Right: errors of the "
                        "first bounce over the steps per contact, lines: slopes 1 and 2", lambda plt: draw(plt, shown, angles, errors))

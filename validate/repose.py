@@ -20,7 +20,7 @@ state and at the peak of spheres with the same friction, which [triaxial compres
 ROLLING = (0.0, 0.02, 0.05, 0.1, 0.2)
 BY_CDT = (0.05, 0.2)
 BASE = 0.05                    # coefficient at which other numbers are changed
-SMOOTHER = "friction .3 for .5"
+SMOOTHER = "friction 0.3 for 0.5"
 SEEDS = (1, 2, 3)
 RADIUS = 10.0
 LIFT = 0.15                    # speed of the pipe over sqrt(g d)
@@ -30,7 +30,7 @@ SAME = 1.5                     # degrees
 CREEP = """ `cdt` is shown and
 not compared: it has no spring that holds a grain at rest, some still move at the end, and the steepest heap is flatter than that of
 `sds`."""
-OTHERS = {"stiffness times 4": {"stiffness": 2e4, "damping": 45.2}, "restitution .3 for .7": {"damping": 71.6},
+OTHERS = {"stiffness times 4": {"stiffness": 2e4, "damping": 45.2}, "restitution 0.3 for 0.7": {"damping": 71.6},
           "half the speed of the pipe": {"lift": 0.5 * LIFT}}
 
 
@@ -121,11 +121,11 @@ def measure(bench):
         rows.append([law, name[1], mean, scatter, max(energy for *_, energy in heaps[name])])
     bench.section.table(["law", "coefficient", "angle, degrees", "deviation over seeds", "kinetic energy, m g d"], rows)
     cdt = "" if bench.quick else CREEP
-    bench.section.text(f"""Spheres of one diameter +- 10 %, friction .5, linear springs of 5e3 m g/d, e = .7, fill a pipe of
+    bench.section.text(f"""Spheres of one diameter +- 10 %, friction 0.5, linear springs of 5e3 m g/d, e = 0.7, fill a pipe of
 {bench.size(RADIUS, 7.0):.0f} diameters radius that stands on a rough plate of the same radius, fixed spheres at random places. It is
 lifted at {bench.size(LIFT, 2 * LIFT)} sqrt(g d): what does not stay on the plate falls off its rim. The angle is that of a cone through
 the upper side of the heap between {FIT[0]} and {FIT[1]} of the radius, by least squares; {len(bench.size(SEEDS, (1,)))} packings
-(deviations are those of one heap). Rolling: `sds` with the tangential stiffness 2/7 kn and .3 of critical damping, and `cdt ... capped`;
+(deviations are those of one heap). Rolling: `sds` with the tangential stiffness 2/7 kn and 0.3 of critical damping, and `cdt ... capped`;
 both limit the torque to mu_r F_n R_1 R_2/(R_1 + R_2). The kinetic energy is that per grain {bench.size(60, 30)} times sqrt(d/g) after
 the pipe is off, the largest of the packings (a grain that is falling beside the plate counts). Fourfold stiffness is a quarter of the
 density as well: what counts is their ratio. Friction angles of spheres with that friction are {CRITICAL} degrees at the

@@ -8,7 +8,7 @@ import problems
 TITLE = "Simple shear"
 QUESTION = """In steady simple shear of smooth inelastic spheres the kinetic theory of gases gives pressure and shear stress: collisions take as
 much energy as the shear stress feeds in (Lun, Savage, Jeffrey, Chepurniy, J. Fluid Mech. 140, 223, 1984). The theory takes the spheres
-that meet for independent, and how many meet from the fluid of hard spheres, which ends at a solid fraction of .49."""
+that meet for independent, and how many meet from the fluid of hard spheres, which ends at a solid fraction of 0.49."""
 
 FRACTIONS = (0.1, 0.2, 0.3, 0.4, 0.5)
 END_OF_FLUID = 0.49

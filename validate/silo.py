@@ -11,7 +11,7 @@ QUESTION = """Friction at the walls of a tube bears what is filled in, so that t
 m_felt = m_s (1 - exp(-m/m_s)), m_s = rho_b pi R^3/(2 mu_w K), with the friction mu_w of the wall and the ratio K of horizontal to vertical
 stress (Janssen, Z. VDI 39, 1045, 1895), if friction is mobilized everywhere, as it is while the floor sinks (Bertho, Giorgiutti-Dauphine,
 Hulin, Phys. Rev. Lett. 90, 144301, 2003). For these
-grains K should be between that of a bed at rest, 1 - sin(phi) = .6 (Jaky), and 1."""
+grains K should be between that of a bed at rest, 1 - sin(phi) = 0.6 (Jaky), and 1."""
 
 NUMBERS = (500, 1000, 2000, 4000, 8000, 16000)
 FRICTION, RADIUS = 0.3, 0.016
@@ -51,7 +51,7 @@ def measure(bench):
     for row in rows:
         bench.section.record(spheres=row[0], filled_g=row[1], felt_g=row[2], law_g=row[3])
     bench.section.table(["spheres", "filled in, g", "felt, g", "law, g"], rows)
-    bench.section.text(f"""Spheres of 2 mm +- 5 %, friction .5 among them and {FRICTION} at the tube of 16 mm radius; the floor sinks at 2 cm/s, what it
+    bench.section.text(f"""Spheres of 2 mm +- 5 %, friction 0.5 among them and {FRICTION} at the tube of 16 mm radius; the floor sinks at 2 cm/s, what it
 feels is the mean of the second millimetre. The limit is fitted: {1e3 * limit:.1f} g. Input script: `validate/in.silo`.""")
     bench.section.plot("", "Mass that the floor feels over the mass that was filled in, and the law of Janssen",
                        lambda plt: draw(plt, points, limit))

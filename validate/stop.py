@@ -12,7 +12,7 @@ TITLE = "Where a flow stops"
 QUESTION = """A layer that flows down a rough plane stops when the slope is lowered: the thinner it is the steeper is the plane on which
 it stops. The thickness that stays on a slope theta is described by h_stop(theta) = A d (tan(theta_2) - tan(theta))/(tan(theta) -
 tan(theta_1)): no layer, however thick, flows below theta_1, and none, however thin, stays above theta_2 (Pouliquen, Phys. Fluids 11, 542,
-1999; Pouliquen, Forterre, J. Fluid Mech. 453, 133, 2002). For glass beads tan(theta_1) = .382 and tan(theta_2) = .643 (Jop, Forterre,
+1999; Pouliquen, Forterre, J. Fluid Mech. 453, 133, 2002). For glass beads tan(theta_1) = 0.382 and tan(theta_2) = 0.643 (Jop, Forterre,
 Pouliquen, Nature 441, 727, 2006)."""
 
 LAYERS = {3: 26.5, 4: 25.5, 5: 24.5, 7: 23.0, 10: 21.8, 15: 21.0}     # height filled in, diameters: slope at the beginning, degrees
@@ -94,7 +94,7 @@ def measure(bench):
     bench.section.text(f"""Spheres and base of [the flow down an incline](chute.md), here {bench.size(20, 10)} diameters long and 10 wide,
 periodic. A layer flows for {bench.size(60, 20)} sqrt(d/g) on a slope that is above the one on which it stops; then the slope is lowered
 by {LOWERED * bench.size(1, 4)}/h degrees in each sqrt(d/g), h: the height in diameters, as a thicker layer takes longer to follow. It has
-stopped when its mean speed is below .001 sqrt(g d); the thickness then is twice the height of its center of mass over the base. Compared
+stopped when its mean speed is below 0.001 sqrt(g d); the thickness then is twice the height of its center of mass over the base. Compared
 are the form of the curve, which is fitted with its three numbers, and the slope of the thickest layers, near theta_1, with theta_1 of
 glass beads, to which these spheres are close, not equal. Input script: `validate/in.stop`.""")
     fit = None if bench.quick else compare(bench, jobs, points, slopes, slow)

@@ -197,7 +197,7 @@ def measure(bench):
     if not bench.quick:
         codes["Talus at half the rate"] = at_half_rate(bench, talus)
         early, deviation = gain([sample.until(EARLY) for sample in talus], [sample.until(EARLY) for sample in other[DAMPING]])
-        bench.section.result("q/p above that of Yade from the same packings, up to a strain of .05", early, -2.0, 2.0, "%",
+        bench.section.result("q/p above that of Yade from the same packings, up to a strain of 0.05", early, -2.0, 2.0, "%",
                              scatter=deviation)
     table(bench, codes)
     describe(bench, talus, other, source)
@@ -222,14 +222,14 @@ def table(bench, codes):
 def describe(bench, talus, other, source):
     number, rate = bench.size((NUMBER, RATE), (QUICK["number"], QUICK["rate"]))
     bench.section.text(f"""{number} spheres of diameters 1 +- 10 %, compressed from all sides without friction until they rest, then
-given friction .5 (none at walls); {len(talus)} samples, the same for both codes. Every contact has kn = {STIFFNESS} and kt = kn/2, over
+given friction 0.5 (none at walls); {len(talus)} samples, the same for both codes. Every contact has kn = {STIFFNESS} and kt = kn/2, over
 pressure times diameter. The walls along z come together at the inertial number {rate}; the others hold the pressure, by `servo` of [fix
-large/body](../fix_large_body.md) in Talus (its target is the pressure times the area of each stage of .0025 strain; where walls yield,
+large/body](../fix_large_body.md) in Talus (its target is the pressure times the area of each stage of 0.0025 strain; where walls yield,
 the force is that target less the speed over vmax: stresses are measured), by TriaxialStressController in Yade. Strains are logarithmic,
 p = (s1 + 2 s3)/3, q = s1 - s3; the critical state is that from a strain of {LAST} on. Bounds: two standard deviations over samples
 (pooled over both codes), for curves their mean over strain.""")
     more, deviation = gain(other[USUAL], [sample.until(EARLY) for sample in other[DAMPING]])
-    bench.section.text(f"""Damping cannot be the same: Talus has dashpots in contacts (e = .7), Yade's engine of that law reduces the
+    bench.section.text(f"""Damping cannot be the same: Talus has dashpots in contacts (e = 0.7), Yade's engine of that law reduces the
 force on a particle by a share, Cundall's local damping. That share is {DAMPING} here. With {USUAL}, the default, q/p of Yade is
 {more:.1f} % higher (+- {deviation:.1f} % over samples; up to a strain of {EARLY}), at this rate: local damping makes a sample
 stronger. The bound of 2 % is below that.""")

@@ -3,7 +3,7 @@
 DAMPING.
 
 PACKING has the positions of the walls, -x +x -y +y -z +z, in its first line, then x, y, z, radius of each sphere. OUT gets a row for each
-stage of .0025 axial strain as in.triaxial has them: axial strain, volumetric strain (dilation positive), axial and lateral stress; its
+stage of 0.0025 axial strain as in.triaxial has them: axial strain, volumetric strain (dilation positive), axial and lateral stress; its
 last line is the time per particle and step in nanoseconds. DAMPING is Cundall's local damping."""
 
 import math

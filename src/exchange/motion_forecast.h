@@ -14,7 +14,7 @@
 // changes a velocity, before the next check, by more than the largest speed there is. (The change
 // in a stable step is about omega dt times the relative speed, with omega dt well below 1, and a
 // whole collision of equal particles ends with at most the speed of the other one; see
-// doc/run_style_verlet_proxy.md.) While nothing moves at all, that says nothing: any force may set particles in
+// doc/method.md.) While nothing moves at all, that says nothing: any force may set particles in
 // motion, and they may leave at once. Where this does not hold, for instance because positions are set
 // by something else than v, the list may be late: that is noticed in the next forecast by its D,
 // and counts as a dangerous build.

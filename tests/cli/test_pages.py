@@ -11,6 +11,10 @@ ROOT = os.environ.get("TALUS_SOURCE_DIR") or os.path.abspath(os.path.join(os.pat
 PAGES = [os.path.join(ROOT, "README.md"), *sorted(glob.glob(os.path.join(ROOT, "doc", "*.md")))]
 PROBLEMS = sorted(glob.glob(os.path.join(ROOT, "doc", "validation", "*.md")))
 LONGEST = 1500      # words of a page
+LONGER = {          # those in which things are looked up, or with many lines of scripts
+    "coupling.md": 1600, "fix_large_body.md": 1800, "from_lammps.md": 1900, "from_liggghts.md": 2400, "messages.md": 3100,
+    "method.md": 2300}
+ALL = 45000         # words of all pages
 
 
 def read(path):
@@ -48,8 +52,12 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(set(listed) | {"README.md"}), [os.path.basename(page) for page in PAGES[1:]])
 
     def test_no_page_is_long(self):
+        total = 0
         for page in PAGES[1:]:
-            self.assertLessEqual(len(read(page).split()), LONGEST, f"divide {os.path.relpath(page, ROOT)}")
+            words = len(read(page).split())
+            self.assertLessEqual(words, LONGER.get(os.path.basename(page), LONGEST), f"shorten {os.path.relpath(page, ROOT)}")
+            total += words
+        self.assertLessEqual(total, ALL, "shorten the longest that say the least")
 
     def test_first_page(self):
         text = read(PAGES[0])

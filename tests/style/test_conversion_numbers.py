@@ -12,7 +12,7 @@ from doc_tables import commands, page, rows
 from liggghts_reference import Law, Sphere, collide, heat_flow
 from talus_testing import SceneCase, head, read_dump, thermo
 
-ROWS = [(commands(theirs), commands(ours)) for theirs, ours, *_ in rows(page("from_liggghts.md", "from_liggghts_walls.md"), "LIGGGHTS")]
+ROWS = [(commands(theirs), commands(ours)) for theirs, ours, *_ in rows(page("from_liggghts.md"), "LIGGGHTS")]
 RADIUS, DENSITY, GAP, DT = 0.0015, 2500.0, 1e-7, 5e-7
 # what the rows say
 ONE_TYPE = Law((5e6, 5e6), (0.45, 0.45), 0.95, 0.05)

@@ -78,7 +78,7 @@ class PageCase(SceneCase):
 class FromLammps(PageCase):
 
     def test_tables(self):
-        text = page("from_lammps.md", "from_lammps_walls.md")
+        text = page("from_lammps.md")
         compared = 0
         for theirs, ours, differs in rows(text, "LAMMPS"):
             theirs, ours = commands(theirs), commands(ours)
@@ -106,8 +106,8 @@ class FromLammps(PageCase):
 
     def test_outputs(self):
         """Numbers of contacts are those of compute contact/atom."""
-        (theirs, ours), = [(commands(theirs), commands(ours)) for theirs, ours, _ in
-                           rows(page("from_lammps.md", "from_lammps_walls.md"), "LAMMPS") if "contact/atom" in theirs]
+        (theirs, ours), = [(commands(theirs), commands(ours)) for theirs, ours, _ in rows(page("from_lammps.md"), "LAMMPS")
+                           if "contact/atom" in theirs]
         counts = []
         for lines, column in ((theirs, "c_touching"), (ours, "c_touching[2]")):
             self.simulate([*lines, f"dump count all custom 60 counts.{len(counts)} id {column}"], self.replaced_by(lines))
@@ -116,7 +116,7 @@ class FromLammps(PageCase):
         self.assertGreater(sum(counts[0].values()), 5)
 
     def test_one_law_for_many_bodies(self):
-        block, = blocks(page("from_lammps.md", "from_lammps_walls.md"))
+        block, = blocks(page("from_lammps.md"))
         self.simulate(block.splitlines(), {"pair", "fix floor"})
 
 
@@ -139,7 +139,7 @@ set group all density 2500"""
             *([] if any("nve/sphere" in line for line in late) else [self.MOVE]), *late, "run 20"])
 
     def test_tables(self):
-        text = page("from_liggghts.md", "from_liggghts_walls.md")
+        text = page("from_liggghts.md")
         scripts = [(theirs, commands(ours)) for theirs, ours, *_ in rows(text, "LIGGGHTS")]
         setup = [line for _, lines in scripts for line in lines
                  if line.split()[0] in ("atom_style", "comm_modify", "newton", "boundary", "neighbor", "neigh_modify")]

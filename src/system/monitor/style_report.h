@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The block of the log that says at the start of a run which styles are accelerated, which are
-// stock because of what, and where steps without output are made. doc/suffix_log.md explains it to
+// stock because of what, and where steps without output are made. doc/messages.md explains it to
 // users.
 
 #ifndef TALUS_SYSTEM_MONITOR_STYLE_REPORT_H
