@@ -68,12 +68,14 @@ ComputeCoarseGrid::~ComputeCoarseGrid()
   free_data();
 }
 
-void ComputeCoarseGrid::check_box() const
+void ComputeCoarseGrid::check_box()
 {
   if (domain->dimension != 3 || domain->triclinic)
     error->all(FLERR, "compute coarse/grid requires 'dimension 3' and a box that is not triclinic");
   for (int d = 0; d < 3; d++) {
     const double edge = domain->prd[d] / cells[d];
+    mean_of[d] = cells[d] == 1 && width < edge;
+    if (mean_of[d]) continue;
     if (width < edge)
       error->all(FLERR,
                  "compute coarse/grid: the width {} is less than the edge {} of the cells along "
@@ -193,7 +195,8 @@ void ComputeCoarseGrid::compute_pergrid()
   }
   const Vector3<double> edge{domain->prd[0] / cells[0], domain->prd[1] / cells[1],
                              domain->prd[2] / cells[2]};
-  kernel = std::make_unique<CoarseKernel>(row(domain->boxlo), edge, width);
+  kernel = std::make_unique<CoarseKernel>(row(domain->boxlo), edge, width, CoarseKernel::no_ends,
+                                          mean_of);
 
   sums->clear();
   add_particles();

@@ -15,6 +15,7 @@
 
 #include "compute.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,7 +40,7 @@ class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
   double memory_usage() override;
 
  private:
-  void check_box() const;
+  void check_box();
   double reach() const;
   void free_data();
   void add_particles();
@@ -52,6 +53,7 @@ class ComputeCoarseGrid : public Compute, private Talus::ContactObserver {
   double value(int quantity, const double *moments) const;
 
   int cells[3];
+  std::array<bool, 3> mean_of{};    // directions of which the one cell takes the mean
   double width;
   std::vector<int> quantities;    // what each column is
   bool with_contacts = false, with_volumes = false;

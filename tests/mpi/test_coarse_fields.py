@@ -87,13 +87,13 @@ class Fields(SceneCase):
         return SCENE.format(boundary=boundary, pair=pair, more=more, move=move) + f"run {steps}\n"
 
     def sums(self, rows):
-        volume = SIZE**3 / math.prod(CELLS)
+        volume = SIZE**3 / len(rows)
         return {name: volume * math.fsum(row[k] for row in rows) for k, name in enumerate(FIELDS)}
 
-    def check_sums(self, log, steps):
+    def check_sums(self, log, steps, cells_of_grid=CELLS):
         masses = [s.density * math.pi / 6 * s.diameter**3 for s in self.spheres]
         for row, cells in zip(thermo(log), steps, strict=True):
-            self.assertEqual(len(cells), math.prod(CELLS))
+            self.assertEqual(len(cells), math.prod(cells_of_grid))
             found = self.sums(cells)
             self.assert_close(found["density"], math.fsum(masses), 1e-12)
             self.assert_close(found["number"], len(masses), 1e-12)
@@ -103,7 +103,7 @@ class Fields(SceneCase):
             for k, name in enumerate(("cxx", "cyy", "czz", "cyx", "czx", "czy"), start=1):
                 self.assertAlmostEqual(found[name], row[f"c_sums[{k}]"], delta=1e-10 * scale)
             self.assertGreater(abs(row["c_sums[4]"]), 1e-3 * scale)
-            volume = SIZE**3 / math.prod(CELLS)
+            volume = SIZE**3 / len(cells)
             column = FIELDS.index
             for k, (name, a, b) in enumerate((("kxx", "vx", "vx"), ("kyy", "vy", "vy"), ("kzz", "vz", "vz"), ("kxy", "vx", "vy"),
                                               ("kxz", "vx", "vz"), ("kyz", "vy", "vz")), start=1):
@@ -159,6 +159,39 @@ class Fields(SceneCase):
                     self.check_sums(log, steps)
                     first = first or steps
                     self.assert_same(first, steps)
+
+    def test_profiles(self):
+        """One cell along a direction takes the mean: the same sums, and over one coordinate the density by hand."""
+        self.make()
+        for cells in (1, 1, 7), (9, 1, 1), (9, 1, 7):
+            first = None
+            for np in 1, 2, 4:
+                with self.subTest(cells, np=np):
+                    log = self.run_lammps(self.scene(field(cells=cells) + output(cells=cells) + SUMS), np=np).log
+                    steps = read_grid(self.path("fields"))
+                    self.check_sums(log, steps, cells)
+                    first = first or steps
+                    self.assert_same(first, steps)
+        self.run_lammps(self.scene(field("density fraction", (1, 1, 20), 0.9) + output(cells=(1, 1, 20)), steps=0))
+        rows, = read_grid(self.path("fields"))
+        density, fraction = ([0.0] * 20 for _ in range(2))
+        for sphere in self.spheres:
+            radius = sphere.diameter / 2
+            parts = [(radius * (k + 0.5) / 50, radius**2 * (1 - ((k + 0.5) / 50)**2)) for k in range(-50, 50)]
+            for column, points in (density, [(0.0, 1.0)]), (fraction, parts):
+                smeared = [sum(part * self.kernel((n + 0.5) / 20 * SIZE - sphere.x[2] - off, 0.9) for off, part in points)
+                           for n in range(20)]
+                factor = math.pi / 6 * sphere.diameter**3 / math.fsum(smeared) / (SIZE**3 / 20)
+                for n in range(20):
+                    column[n] += smeared[n] * factor
+        for row, a, b in zip(rows, density, fraction, strict=True):
+            self.assert_close(row[0], 1000.0 * a, 1e-10)
+            self.assert_close(row[1], b, 1e-3)
+
+    @staticmethod
+    def kernel(distance, width):
+        distance -= SIZE * round(distance / SIZE)
+        return max(0.0, 1 - (distance / width)**2)**2
 
     def assert_same(self, some, others):
         self.assertEqual(len(some), len(others))
@@ -283,7 +316,7 @@ timestep 5e-4
                  (field(width=-1), "expected width W", "-1"),
                  (field(values=""), "missing a value, e.g. density", None),
                  (field(values="density vq"), "unknown value 'vq', expected number, density, fraction", "vq"),
-                 (field(width=0.45), "the width 0.45 is less than the edge 0.5 of the cells along y", None),
+                 (field(cells=(1, 8, 1), width=0.45), "the width 0.45 is less than the edge 0.5 of the cells along y", None),
                  (field(width=2.5), "the width 2.5 is more than half the period 4 along x", None)]
         for k, (more, message, word) in enumerate(cases):
             for np in (1, 2) if k % 3 == 0 else (1,):

@@ -38,7 +38,68 @@ double by_parts(double distance, double radius, double width)
   return sum * (h * h * h);
 }
 
+/// The same of the mean along one direction, and along two.
+double by_parts_seen(double distance, double radius, double width, int dimensions)
+{
+  constexpr int parts = 100;    // of the diameter
+  const double h = 2.0 * radius / parts;
+  double sum = 0.0;
+  for (int i = 0; i < parts; i++)
+    for (int j = 0; j < parts; j++) {
+      const double x = (i + 0.5) * h - radius, y = (j + 0.5) * h - radius,
+                   rest = radius * radius - x * x - y * y;
+      if (rest <= 0.0) continue;
+      const double off = x - distance, across = dimensions == 2 ? y : 0.0;
+      sum += 2.0 * std::sqrt(rest) * phi(std::sqrt(off * off + across * across), width);
+    }
+  return sum * h * h;
+}
+
 }    // namespace
+
+TEST(CoarseKernel, volumeOfABallAlongOneAndTwoCoordinates)
+{
+  const Vector3<double> none{0.0, 0.0, 0.0}, edge{0.1, 0.1, 0.1};
+  for (const double width : {0.3, 1.0, 2.5}) {
+    const CoarseKernel kernel(none, edge, width);
+    for (const double radius : {0.2, 0.6, 1.7})
+      for (const double distance : {0.0, 0.1, 0.3, 0.9, 1.1, 1.9, 2.6, 5.0}) {
+        const double ball = 4.0 / 3.0 * pi * radius * radius * radius;
+        EXPECT_NEAR(pi * kernel.within_discs(distance, radius),
+                    by_parts_seen(distance, radius, width, 1), 1e-3 * ball)
+            << width << " " << radius << " " << distance;
+        if (width < radius) continue;
+        EXPECT_NEAR(pi * kernel.within_chords(distance, radius),
+                    by_parts_seen(distance, radius, width, 2), 2e-3 * ball)
+            << width << " " << radius << " " << distance;
+      }
+  }
+}
+
+TEST(CoarseKernel, nothingIsLostWhereTheMeanIsTaken)
+{
+  const Vector3<double> origin{-1.0, 0.3, 0.0}, edge{2.0, 0.1, 3.0}, x{0.01, 0.02, 0.03},
+      y{0.4, 0.2, 0.0};
+  for (const std::array<bool, 3> mean_of :
+       {std::array<bool, 3>{true, false, true}, {true, false, false}, {true, true, true}}) {
+    const Vector3<double> edges{edge.x, mean_of[1] ? 2.0 : edge.y, mean_of[2] ? edge.z : 0.2};
+    CoarseKernel kernel(origin, edges, 0.4, CoarseKernel::no_ends, mean_of);
+    const auto sum = [&](const std::vector<CoarseKernel::Share> &shares) {
+      double all = 0.0;
+      for (const CoarseKernel::Share &one : shares) {
+        for (int d = 0; d < 3; d++)
+          if (mean_of[d]) {
+            EXPECT_EQ(one.cell[d], 0);
+          }
+        all += one.weight * edges.x * edges.y * edges.z;
+      }
+      return all;
+    };
+    EXPECT_NEAR(sum(kernel.of_point(x)), 1.0, 1e-12);
+    EXPECT_NEAR(sum(kernel.of_line(x, y)), 1.0, 1e-12);
+    EXPECT_NEAR(sum(kernel.of_ball(x, 0.5)), 1.0, 1e-12);
+  }
+}
 
 TEST(CoarseKernel, volumeOfABallIsWhereItIs)
 {
