@@ -63,7 +63,7 @@ struct ContactReport {
   double overlap = 0.0;        ///< length; negative of contacts that last beyond zero
   Vector3<double> force{};     ///< on the first body
   Vector3<double> torque_per_radius{}, twisting_torque{};    ///< of spheres, see ContactLanes
-  double heat_flow = 0.0;     ///< to the first body (energy/time); only of walls of LAMMPS
+  double heat_flow = 0.0;     ///< to the first body (energy/time); only of bodies and walls
   HistoryValues history{};    ///< the first three of a large body in its own frame
   EnergyByCause stored;
   /// By body, 0 of a large one: from its center to the point of contact, in the middle of the

@@ -221,8 +221,14 @@ OTHERS = [
     (f"{PAIR}{PLANE} contact types 2 {GOOD}", "no contact law for particles of type 1", None),
     (f"{PAIR}{PLANE} contact types", "missing types", "types"),
     (f"{PAIR}{PLANE} contact", "missing normal law", "contact"),
-    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0", "fix large/body contact: large bodies have no temperature: "
-     "remove 'heat', or use fix wall/gran granular", "hertz"),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0", "fix large/body: a law with 'heat', and the body has no "
+     "temperature: add 'temperature T', or remove 'heat'", None),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 temperature 300\nrun 0", "it has a temperature, and no law of its contacts conducts heat: "
+     "add 'heat radius'", None),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature 300\nrun 0", "particles that have a temperature: add "
+     "'fix ID all property/atom temperature heatflow ghost yes'", None),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature hot", "expected temperature T", "hot"),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature v_t\nrun 0", "variable 't' does not exist", None),
     # computes
     (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
     (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),
@@ -280,7 +286,7 @@ class LawErrors(SceneCase):
         """The same parser: one case of each kind, and what is behind a contact."""
         cases = [case for n, case in enumerate(law_cases()) if n % 4 == 0 or case[1] is None]
         self.assert_errors(((f"{PAIR}{PLANE} contact {words}",
-                             message or f"unknown word '{word}', expected contact, type, two-sided, move, servo, surface_velocity, gravity, load, "
+                             message or f"unknown word '{word}', expected contact, type, two-sided, move, servo, surface_velocity, gravity, load, temperature, "
                              "pressure, wear, vtk, or in a contact "
                              "tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping", word)
                             for words, message, word in cases), "fix large/body")

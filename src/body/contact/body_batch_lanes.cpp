@@ -294,8 +294,10 @@ void BodyBatch::add_to_particles()
 
 void BodyBatch::add_heat()
 {
-  for (int k = 0; k < filled; k++)
+  for (int k = 0; k < filled; k++) {
     task->step.heat.flow[task->candidates.atom(candidate_of_lane[k])] += batch.heat_flow[k];
+    load.heat -= batch.heat_flow[k];
+  }
 }
 
 /* The reaction acts where the lever arm of the particle ends, r along the normal, and rolling and

@@ -86,7 +86,8 @@ void BodyBatch::record_parts()
         v - dot(v, n) * n - cross(lane_of(batch.surface_rotation, lane), n);
     const Vector3<double> shear =
         law.has_friction() ? -(f - pressed * n) : Vector3<double>{0.0, 0.0, 0.0};
-    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip)});
+    const double heat = law.conducts_heat() ? -batch.heat_flow[lane] : 0.0;
+    touched.push_back({part_of_lane[lane], pressed, -f, shear, dot(shear, slip), heat});
   }
 }
 

@@ -13,12 +13,14 @@ namespace Talus {
 struct BodyLoad {
   Vector3<double> force{0.0, 0.0, 0.0}, torque{0.0, 0.0, 0.0};
   double contacts = 0.0;
+  double heat = 0.0;    ///< that flows into the body (energy/time)
 
   void add(const BodyLoad &other)
   {
     force = force + other.force;
     torque = torque + other.torque;
     contacts += other.contacts;
+    heat += other.heat;
   }
 };
 

@@ -22,6 +22,7 @@ struct TouchedPart {
   Vector3<double> force;    ///< on the body, its frame
   Vector3<double> shear;    ///< the tangential part of it
   double shear_power;       ///< that force times the velocity of the surfaces past each other
+  double heat = 0.0;        ///< that flows into the body (energy/time)
 };
 
 /// Force of one contact on the corners of a triangle in one step, see MovingVertices.

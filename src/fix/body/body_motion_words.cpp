@@ -44,8 +44,7 @@ bool BodyMotionWords::parse(BodyMotionSpec &spec)
   if (words.take("load")) {
     words.about("load");
     spec.load.emplace();
-    for (BodyMotionSpec::Quantity &q : *spec.load)
-      q = quantity("force and torque (fx fy fz tx ty tz)");
+    for (NumberOrVariable &q : *spec.load) q = quantity("force and torque (fx fy fz tx ty tz)");
     return true;
   }
   return false;
@@ -145,14 +144,9 @@ void BodyMotionWords::parse_servo(BodyMotionSpec &spec)
   if (words.take("gain")) spec.servo.gain = words.positive("gain");
 }
 
-BodyMotionSpec::Quantity BodyMotionWords::quantity(const char *name)
+NumberOrVariable BodyMotionWords::quantity(const char *name)
 {
-  BodyMotionSpec::Quantity q;
-  if (words.peek().compare(0, 2, "v_") == 0)
-    q.name = words.text(name).substr(2);
-  else
-    q.value = words.number_or_null(name);
-  return q;
+  return NumberOrVariable::from(words, name);
 }
 
 void BodyMotionWords::check(const BodyMotionSpec &spec, LargeBodyShape &shape) const

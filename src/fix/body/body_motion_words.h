@@ -28,7 +28,7 @@ class BodyMotionWords : protected LAMMPS_NS::Pointers {
   void parse_variable(BodyMotionSpec &spec);
   void parse_free(BodyMotionSpec &spec);
   void parse_servo(BodyMotionSpec &spec);
-  BodyMotionSpec::Quantity quantity(const char *name);
+  NumberOrVariable quantity(const char *name);
   Vector3<double> vector_or_null(const char *name);
 
   Words &words;

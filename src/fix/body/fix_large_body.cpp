@@ -47,7 +47,7 @@ void FixLargeBody::offer_output()
   const LargeBodySurface &surface = body->surface();
   scalar_flag = vector_flag = 1;
   extscalar = 1;
-  size_vector = 20;
+  size_vector = 21;
   extvector = 0;
   global_freq = 1;
   energy_global_flag = 1;

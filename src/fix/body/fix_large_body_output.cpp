@@ -21,6 +21,7 @@ double FixLargeBody::compute_vector(int n)
                             total.torque.x, total.torque.y, total.torque.z};
   if (n < 6) return values[n];
   if (n == 19) return total.contacts;
+  if (n == 20) return total.heat;
   double state[BodyState::size];
   const BodyFrame &frame = body->frame();
   frame.state.to_array(state);

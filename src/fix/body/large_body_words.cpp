@@ -31,13 +31,16 @@ LargeBodySpec LargeBodyWords::parse()
       parse_contact();
     } else if (words.take("type")) {
       parse_type();
+    } else if (words.take("temperature")) {
+      words.about("temperature");
+      spec.temperature = NumberOrVariable::from(words, "temperature T");
     } else if (words.take("two-sided") || motion.parse(spec.motion) || parse_surface()) {
       continue;
     } else {
       words.fail(
           0, "unknown word '" + words.peek() +
                  "', expected contact, type, two-sided, move, servo, surface_velocity, gravity, "
-                 "load, pressure, wear, vtk, or in a contact " +
+                 "load, temperature, pressure, wear, vtk, or in a contact " +
                  contact_keywords);
     }
   }
@@ -45,6 +48,7 @@ LargeBodySpec LargeBodyWords::parse()
     error->all(FLERR, "fix large/body: surface_velocity is for plane, rectangle and mesh: give a "
                       "cylinder or cone that turns 'move rotate'");
   need_all_laws();
+  check_heat();
   motion.check(spec.motion, *spec.shape);
   return std::move(spec);
 }
@@ -72,9 +76,6 @@ void LargeBodyWords::parse_contact()
     utils::bounds(FLERR, words.text("types, e.g. 1 or 1*3"), 1, atom->ntypes, lo, hi, error);
   const int at_normal = words.index();
   const ContactSpec parsed = Talus::parse_contact(words, 1.0 / force->nktv2p);
-  if (parsed.law.conducts_heat())
-    words.fail(words.index() - at_normal,
-               "large bodies have no temperature: remove 'heat', or use fix wall/gran granular");
   if (takes_moduli_of_types(parsed))
     words.fail(words.index() - at_normal,
                "E and nu = NULL are those of two types of particles, in pair_coeff: write numbers, "
@@ -112,6 +113,16 @@ void LargeBodyWords::need_all_laws() const
                  "fix large/body: no contact law for particles of type {}: add 'contact "
                  "NORMAL args ...' or 'contact types {} NORMAL args ...', or 'type N'",
                  type, type);
+}
+
+void LargeBodyWords::check_heat()
+{
+  const bool conducts = std::any_of(spec.laws.begin(), spec.laws.end(),
+                                    [](const ContactSpec &one) { return one.law.conducts_heat(); });
+  if (conducts && !spec.temperature)
+    error->all(FLERR, "fix large/body: a law with 'heat', and the body has no temperature: add "
+                      "'temperature T', or remove 'heat'");
+  spec.surface.with_heat = spec.temperature.has_value();
 }
 
 /* ---- surface ------------------------------------------------------------------------------- */

@@ -30,6 +30,7 @@ class LargeBodyWords : protected LAMMPS_NS::Pointers {
   void need_mesh() const;
   [[noreturn]] void refuse_two_laws(int back) const;
   void need_all_laws() const;
+  void check_heat();
 
   Words &words;
   LargeBodySpec spec;

@@ -10,31 +10,26 @@
 #include "body/motion/body_state.h"
 #include "body/motion/prescribed_motion.h"
 #include "body/motion/rigid_body.h"
+#include "system/host/number_or_variable.h"
 
 #include <array>
 #include <optional>
-#include <string>
 
 namespace Talus {
 
 struct BodyMotionSpec {
   enum class Kind { NONE, PRESCRIBED, VARIABLE, EXTERNAL, FREE, SERVO, REGION, VERTICES };
-  /// A number or an equal-style variable.
-  struct Quantity {
-    double value = 0.0;
-    std::string name;
-  };
 
   Kind kind = Kind::NONE;
   std::optional<PrescribedMotion> prescribed;
-  std::array<Quantity, 8> path;    ///< displacement, velocity, angle, angular velocity
+  std::array<NumberOrVariable, 8> path;    ///< displacement, velocity, angle, angular velocity
   Vector3<double> angle_axis{0.0, 0.0, 1.0};
   RigidBody rigid;
   BodyState initial;    ///< velocities of a free body
   std::optional<Vector3<double>> center_of_mass;
   Servo servo;
-  std::optional<Vector3<double>> gravity;         ///< acceleration of a free body
-  std::optional<std::array<Quantity, 6>> load;    ///< force and torque on a free body
+  std::optional<Vector3<double>> gravity;                 ///< acceleration of a free body
+  std::optional<std::array<NumberOrVariable, 6>> load;    ///< force and torque on a free body
   std::optional<Vector3<double>> surface_velocity;
 };
 

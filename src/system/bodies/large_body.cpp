@@ -22,6 +22,7 @@
 #include "utils.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -36,7 +37,7 @@ LargeBody::LargeBody(const Fix *command_fix, GranularSystem &owner, LargeBodySpe
     body_surface(
         std::make_unique<LargeBodySurface>(lmp, *body_shape, body_shape->as_mesh(), spec.surface)),
     side(lmp, body_shape->as_mesh()), monitor(lmp, *this), specs(std::move(spec.laws)),
-    type_of_laws(spec.type_of_laws), masses(lmp)
+    type_of_laws(spec.type_of_laws), temperature(std::move(spec.temperature)), masses(lmp)
 {
   if (body_motion.deforms())
     moved_vertices = std::make_unique<LargeBodyVertices>(lmp, *body_shape->as_mesh());
@@ -95,6 +96,7 @@ void LargeBody::init()
   masses.find_fixes();
   find_frozen();
   set_laws();
+  check_heat();
   if (system.integrators().order() == 1) contacts.history.forget_normals();
   if (const FixContactStore *store = system.store(); store && order_of_history == 0)
     order_of_history = store->order_of_histories();    // of a restart file
@@ -178,7 +180,8 @@ ParticleState LargeBody::view() const
 
 std::string LargeBody::needs_arrays() const
 {
-  if (body_motion.asks_variables()) return "its variables may read particles";
+  if (body_motion.asks_variables() || (temperature && temperature->reads_more_than_time(lmp)))
+    return "its variables may read particles";
   bool turns = false;
   for (int type = 1; type <= atom->ntypes; type++) turns = turns || law_of(type).has_friction();
   if (turns && !system.pipeline().keeps_omega())
@@ -200,12 +203,26 @@ BodyStep LargeBody::begin_forces(bool advance)
   if (body_surface->records()) step.touched = body_surface->touched();
   if (moved_vertices) step.corners = moved_vertices->touched();
   if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
+  step.heat = heat();
   return step;
 }
 
+BodyHeat LargeBody::heat()
+{
+  if (!temperature) return {};
+  if (temperature->is_variable()) modify->clearstep_compute();
+  const double now = temperature->evaluate(lmp);
+  if (temperature->is_variable()) modify->addstep_compute(update->ntimestep + 1);
+  if (!std::isfinite(now))
+    error->all(FLERR, "Fix large/body {}: the temperature is not finite", fix->id);
+  return {atom->temperature, now, atom->heatflow};
+}
+
+/* Heat flows are summed in the arrays, in the order of the commands, after those of pairs. */
+
 bool LargeBody::join_step()
 {
-  joined = (comm->nthreads == 1 || body_shape->thread_safe()) &&
+  joined = !temperature && (comm->nthreads == 1 || body_shape->thread_safe()) &&
            contacts.begin_static(*body_shape, frame(), view(), begin_forces(true));
   return joined;
 }

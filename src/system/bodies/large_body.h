@@ -183,6 +183,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void finish_reduction();
   ParticleState view() const;
   BodyStep begin_forces(bool advance);
+  BodyHeat heat();
   const int *mask_of_spheres();
   Eigen::AlignedBox3d bounds_of_focus(const ParticleState &particles, const int *mask);
   BodyFindings findings_now() const;
@@ -190,6 +191,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   void find_frozen();
   void clear_frozen();
   void set_laws();
+  void check_heat() const;
   const PairCoeffs &pairs_with(int type) const;
   ContactSides sides_of(int type) const;
   std::string note_on(int type) const;
@@ -210,6 +212,7 @@ class LargeBody : protected LAMMPS_NS::Pointers {
   LargeBodyMonitor monitor;
   std::vector<ContactSpec> specs;    ///< by type
   int type_of_laws = 0;              ///< whose pairs have the laws; 0: `specs` are the laws
+  std::optional<NumberOrVariable> temperature;
   bool with_history = false;
   int order_of_history = 0;    ///< of the integrator, by whose laws it is; 0: not known
   BodyContacts contacts;

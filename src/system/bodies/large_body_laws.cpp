@@ -39,6 +39,22 @@ void LargeBody::set_laws()
   announce_laws();
 }
 
+void LargeBody::check_heat() const
+{
+  if (!temperature) return;
+  temperature->check(lmp, std::string("Fix large/body ") + fix->id);
+  if (!contacts.law_table().conducts_heat())
+    error->all(FLERR,
+               "Fix large/body {}: it has a temperature, and no law of its contacts conducts heat: "
+               "add 'heat radius' or 'heat area' to the law, or remove 'temperature'",
+               fix->id);
+  if (!atom->temperature_flag || !atom->heatflow_flag)
+    error->all(FLERR,
+               "Fix large/body {}: heat is conducted to particles that have a temperature: add "
+               "'fix ID all property/atom temperature heatflow ghost yes'",
+               fix->id);
+}
+
 /* Types that follow each other and have one law share a line. */
 
 void LargeBody::announce_laws()
@@ -96,13 +112,13 @@ const PairCoeffs &LargeBody::pairs_with(int type) const
   return pairs;
 }
 
-/* Large bodies have no temperature. */
+/* Without a temperature a body conducts no heat. */
 
 ContactLaw LargeBody::law_of(int type) const
 {
   if (type_of_laws == 0) return specs[type].law;
   ContactLaw law = pairs_with(type).law(std::min(type, type_of_laws), std::max(type, type_of_laws));
-  law.choose(Stage::HEAT, &ContactLaw().heat());
+  if (!temperature) law.choose(Stage::HEAT, &ContactLaw().heat());
   return law;
 }
 

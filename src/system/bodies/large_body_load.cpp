@@ -66,11 +66,12 @@ const BodyLoad &LargeBody::load()
 {
   if (total_is_known) return total;
   if (exact_is_known) exact_load();
-  const double here[7] = {mine.force.x,  mine.force.y,  mine.force.z, mine.torque.x,
-                          mine.torque.y, mine.torque.z, mine.contacts};
-  double all[7];
-  MPI_Allreduce(here, all, 7, MPI_DOUBLE, MPI_SUM, world);
+  const double here[8] = {mine.force.x,  mine.force.y,  mine.force.z,  mine.torque.x,
+                          mine.torque.y, mine.torque.z, mine.contacts, mine.heat};
+  double all[8];
+  MPI_Allreduce(here, all, 8, MPI_DOUBLE, MPI_SUM, world);
   total.contacts = all[6];
+  total.heat = all[7];
   total_is_known = true;
   if (exact_is_known) return total;
   total.force = {all[0], all[1], all[2]};

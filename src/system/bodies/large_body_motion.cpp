@@ -47,44 +47,26 @@ LargeBodyMotion::LargeBodyMotion(LAMMPS *lmp, const BodyMotionSpec &spec, LargeB
 
 /* ---- motion --------------------------------------------------------------------------------- */
 
-int LargeBodyMotion::find(const Quantity &q) const
-{
-  const int index = input->variable->find(q.name.c_str());
-  if (index < 0) error->all(FLERR, "Fix large/body: variable '{}' does not exist", q.name);
-  if (!input->variable->equalstyle(index))
-    error->all(FLERR, "Fix large/body: variable '{}' is not an equal-style variable", q.name);
-  return index;
-}
-
 void LargeBodyMotion::init()
 {
-  for (const Quantity &q : given.path)
-    if (!q.name.empty()) static_cast<void>(find(q));
+  for (const NumberOrVariable &q : given.path) q.check(lmp, "Fix large/body");
   if (!given.load) return;
-  for (const Quantity &q : *given.load)
-    if (!q.name.empty()) static_cast<void>(find(q));
+  for (const NumberOrVariable &q : *given.load) q.check(lmp, "Fix large/body");
 }
 
 bool LargeBodyMotion::asks_variables() const
 {
-  const auto asks = [this](const Quantity &q) {
-    return !q.name.empty() && !reads_only_time(lmp, q.name);
-  };
+  const auto asks = [this](const NumberOrVariable &q) { return q.reads_more_than_time(lmp); };
   return (kind == Kind::VARIABLE && std::any_of(given.path.begin(), given.path.end(), asks)) ||
          (kind == Kind::REGION && !variable_that_may_read_particles(lmp, *region).empty()) ||
          (given.load && std::any_of(given.load->begin(), given.load->end(), asks));
-}
-
-double LargeBodyMotion::evaluate(const Quantity &q)
-{
-  return q.name.empty() ? q.value : input->variable->compute_equal(find(q));
 }
 
 void LargeBodyMotion::evaluate_state()
 {
   modify->clearstep_compute();
   double value[8];
-  for (int k = 0; k < 8; k++) value[k] = evaluate(given.path[k]);
+  for (int k = 0; k < 8; k++) value[k] = given.path[k].evaluate(lmp);
   modify->addstep_compute(update->ntimestep + 1);
   for (const double v : value)
     if (!std::isfinite(v)) error->all(FLERR, "Fix large/body move variable: a value is not finite");
@@ -209,7 +191,7 @@ void LargeBodyMotion::move_free(BodyState &state, const BodyLoad &load, double l
   double applied[6] = {};
   if (given.load) {
     modify->clearstep_compute();
-    for (int k = 0; k < 6; k++) applied[k] = evaluate((*given.load)[k]);
+    for (int k = 0; k < 6; k++) applied[k] = (*given.load)[k].evaluate(lmp);
     modify->addstep_compute(update->ntimestep + 1);
   }
   const Vector3<double> f = load.force + Vector3<double>{applied[0], applied[1], applied[2]};

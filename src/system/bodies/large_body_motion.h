@@ -79,9 +79,6 @@ class LargeBodyMotion : protected LAMMPS_NS::Pointers {
   }
 
  private:
-  using Quantity = BodyMotionSpec::Quantity;
-  int find(const Quantity &q) const;
-  double evaluate(const Quantity &q);
   void evaluate_state();
   void evaluate_region(double dt);
   void move(const BodyLoad &load, double lag);

@@ -11,6 +11,7 @@
 #include "system/bodies/body_motion_spec.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,11 @@ namespace Talus {
 /// What is told of the surface: loads of the triangles of a mesh, and pictures for ParaView.
 struct BodySurfaceSpec {
   bool with_loads = false;
-  bool averages = false;    ///< loads are means over the steps since the last picture
-  double wear = 0.0;        ///< depth over shear work by area (1/pressure)
-  int interval = 0;         ///< of pictures, in steps; 0: none
-  std::string file;         ///< with a * for the step
+  bool with_heat = false;    ///< the body has a temperature
+  bool averages = false;     ///< loads are means over the steps since the last picture
+  double wear = 0.0;         ///< depth over shear work by area (1/pressure)
+  int interval = 0;          ///< of pictures, in steps; 0: none
+  std::string file;          ///< with a * for the step
 };
 
 struct LargeBodySpec {
@@ -32,6 +34,7 @@ struct LargeBodySpec {
   /// By type of particles, from 1. Or the laws of pairs with this type, as they are when a run begins; 0: `laws`.
   std::vector<ContactSpec> laws;
   int type_of_laws = 0;
+  std::optional<NumberOrVariable> temperature;    ///< of all of it; none: no heat is conducted
 };
 
 }    // namespace Talus

@@ -20,7 +20,7 @@ namespace Talus {
 
 namespace {
 
-enum Field { NORMAL, SHEAR, FORCE = 4, WORK = 7 };
+enum Field { NORMAL, SHEAR, FORCE = 4, HEAT = 7, WORK };
 
 }    // namespace
 
@@ -54,6 +54,7 @@ void LargeBodySurface::add_step(double dt)
     load[FORCE] += p.force.x;
     load[FORCE + 1] += p.force.y;
     load[FORCE + 2] += p.force.z;
+    load[HEAT] += p.heat;
     load[WORK] += dt * p.shear_power;
   }
   reduced = false;
@@ -74,7 +75,8 @@ double LargeBodySurface::value(int t, int column)
   const double area = mesh->surface().area(t);
   if (column == 0) return share() * load[NORMAL] / area;
   if (column == 2) return load[WORK] / area;
-  if (column == 3) return given.wear * load[WORK] / area;
+  if (column == 3 && given.wear > 0.0) return given.wear * load[WORK] / area;
+  if (column >= 3) return share() * load[HEAT] / area;
   const double *s = load + SHEAR;
   return share() * std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / area;
 }
@@ -126,7 +128,8 @@ int LargeBodySurface::image(const BodyFrame &frame, int *&kinds, double **&value
 
 void LargeBodySurface::add_loads(VtkPolyData &picture, const BodyFrame &frame)
 {
-  static const char *const names[] = {"pressure", "shear_stress", "shear_work", "wear"};
+  const std::string names[] = {"pressure", "shear_stress", "shear_work",
+                               given.wear > 0.0 ? "wear" : "heat_flux", "heat_flux"};
   reduce();
   starts_new_sums = true;
   const int count = comm->me == 0 ? size() : 0;

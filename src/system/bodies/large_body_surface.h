@@ -43,8 +43,8 @@ class LargeBodySurface : protected LAMMPS_NS::Pointers {
   void add_step(double dt);
 
   /// Pressure and shear stress in the last step, or their means over the steps since the last
-  /// picture; shear work per area since the start; depth of wear. All ranks.
-  int columns() const { return given.wear > 0.0 ? 4 : 3; }
+  /// picture; shear work per area since the start; depth of wear; heat flow per area, as the pressure. All ranks.
+  int columns() const { return 3 + (given.wear > 0.0 ? 1 : 0) + (given.with_heat ? 1 : 0); }
   double value(int triangle, int column);
 
   /// For dump image. Every rank gives its share of the triangles.
@@ -77,9 +77,9 @@ class LargeBodySurface : protected LAMMPS_NS::Pointers {
   int steps = 0;                  // of the sums
 
   std::vector<TouchedPart> parts;
-  // by triangle, of this rank: normal force, shear force (3), force on the body (3), shear work;
+  // by triangle, of this rank: normal force, shear force (3), force on the body (3), heat flow, shear work;
   // and of all ranks; vectors in the frame of the body
-  static constexpr int fields = 8;
+  static constexpr int fields = 9;
   std::vector<double> loads, loads_of_all;
   bool reduced = false;
 

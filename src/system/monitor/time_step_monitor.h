@@ -45,6 +45,7 @@ class TimeStepMonitor : protected Pointers {
   bool judge_smaller_particles(const Talus::PairCoeffs &laws);
   void store_sizes(const Talus::PairCoeffs &laws);
   void judge();
+  bool particles_move() const;
   void warn_unstable() const;
   void warn_too_large(double limit) const;
 
