@@ -69,23 +69,51 @@ inline Vec4 ParticleRecords::move(const KickAndDrift &step, std::size_t s)
   return v_new;
 }
 
-/* Eight slots from this one on, all moved by the first step, and on none has anything acted: in dilute
-   scenes most. Asked for eight at once, for of a single one the answer is unpredictable. */
+/* Up to eight slots from this one on, on none of which anything has acted, and of which the first
+   step moves some and the others are ghosts, whose sums are what they begin with: in dilute scenes
+   most. Asked for eight at once, for of a single one the answer is unpredictable. */
 
-bool ParticleRecords::are_idle(const std::vector<Role> &role, const SlotChoice &slots,
-                               int begin) const
+ParticleRecords::Idle ParticleRecords::find_idle(const Role *role, const SlotChoice &slots, int n,
+                                                 int count) const
 {
-  constexpr int eight = 8;
-  constexpr std::uint64_t all_move = 0x0101010101010101U * MOVES;
-  const auto bytes = [begin](const unsigned char *of) {
-    std::uint64_t word;
-    std::memcpy(&word, of + begin, eight);
+  static_assert(GHOST == 0 && MOVES == 2, "one bit tells them apart");
+  constexpr std::uint64_t eight_ones = 0x0101010101010101U;
+  const auto bytes = [&slots, n](const unsigned char *of, std::uint64_t chosen) {
+    std::uint64_t word = 0;
+    if (!slots.list && chosen == eight_ones)
+      std::memcpy(&word, of + n, lanes);
+    else
+      for (; chosen; chosen &= chosen - 1)
+        word |= std::uint64_t{of[slots.at(n + __builtin_ctzll(chosen) / 8)]}
+                << (__builtin_ctzll(chosen) & ~7);
     return word;
   };
-  // of marked ones first: those are with other threads
-  return !slots.list && begin + eight <= slots.end && (!slots.marked || bytes(slots.marked) == 0) &&
-         bytes(acted.data()) == 0 &&
-         (role.empty() || bytes(reinterpret_cast<const unsigned char *>(role.data())) == all_move);
+  std::uint64_t here = eight_ones >> (8 * (lanes - count));
+  if (slots.marked) here &= ~bytes(slots.marked, here);    // other threads may change the others
+  if (bytes(acted.data(), here) != 0) return {};
+  const std::uint64_t roles =
+      role ? bytes(reinterpret_cast<const unsigned char *>(role), here) : here * MOVES;
+  if ((roles & ~(eight_ones * MOVES)) != 0) return {};
+  return {true, roles / MOVES};
+}
+
+/* Those that find_idle() has found: one byte each. Returns the square of the largest speed. */
+
+template <bool rotation, bool changes>
+inline Vec4 ParticleRecords::advance_idle(const KickAndDrift &step, const SlotChoice &slots, int n,
+                                          std::uint64_t moving)
+{
+  Vec4 fastest2{};
+  const auto advance_one = [&](int place) {
+    const Vec4 v = move<rotation, changes, false>(step, slots.at(place));
+    fastest2 = larger(square(clear_fourth(v)), fastest2);
+  };
+  constexpr std::uint64_t all = 0x0101010101010101U;
+  if (moving == all)
+    for (int k = 0; k < lanes; k++) advance_one(n + k);
+  else
+    for (; moving; moving &= moving - 1) advance_one(n + __builtin_ctzll(moving) / 8);
+  return fastest2;
 }
 
 template <bool rotation, bool changes>
@@ -93,32 +121,29 @@ double ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
                                     const std::vector<Role> &role, const SlotChoice &slots)
 {
   constexpr std::size_t row_stride = rotation ? 2 : 1;
-  constexpr int eight = 8, ahead = 64;
+  constexpr int ahead = 64;
   const KickAndDrift first(steps[0]);
   const std::vector<KickAndDrift> others(steps.begin() + 1, steps.end());
   const Role *const roles = role.empty() ? nullptr : role.data();
   const int last = std::max(slots.end, slots.next_end) - 1;
   Vec4 fastest2{};
-  const auto prefetch_later = [&](int n, bool with_sums) {
-    const std::size_t soon = slots.at(n + std::min(ahead, last - n));
-    __builtin_prefetch(position.data() + soon, 1);
-    __builtin_prefetch(motion.data() + row_stride * soon, 1);
-    if (with_sums) __builtin_prefetch(load.data() + row_stride * soon, 1);
-  };
   for (int n = slots.begin; n < slots.end;) {
-    const int end = std::min(n + eight, slots.end);
-    if (are_idle(role, slots, n)) {
-      for (; n < end; n++) {
-        prefetch_later(n, false);
-        const Vec4 v = move<rotation, changes, false>(first, n);
-        fastest2 = larger(square(clear_fourth(v)), fastest2);
-      }
+    const int end = std::min(n + lanes, slots.end);
+    const Idle idle = find_idle(roles, slots, n, end - n);
+    for (int k = n; k < end; k++) {
+      const std::size_t soon = slots.at(k + std::min(ahead, last - k));
+      __builtin_prefetch(position.data() + soon, 1);
+      __builtin_prefetch(motion.data() + row_stride * soon, 1);
+      if (!idle.all) __builtin_prefetch(load.data() + row_stride * soon, 1);
+    }
+    if (idle.all) {
+      fastest2 = larger(advance_idle<rotation, changes>(first, slots, n, idle.moving), fastest2);
+      n = end;
       continue;
     }
     for (; n < end; n++) {
       const int slot = slots.at(n);
       if (!slots.holds(slot)) continue;
-      prefetch_later(n, true);
       const std::size_t s = slot;
       const Role role = roles ? roles[s] : MOVES;
       const Vec4 v = role == MOVES  ? move<rotation, changes, true>(first, s)
