@@ -11,6 +11,7 @@
 
 #include "contact/contact_pipeline.h"
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -78,7 +79,8 @@ struct Canonical {
   }
   void start()
   {
-    pipeline.motion().prepare([](int) { return 0; }, {});
+    pipeline.motion().prepare(
+        [](int begin, int end, signed char *to) { std::fill_n(to, end - begin, 0); }, {});
   }
   void step()
   {
