@@ -207,7 +207,8 @@ class Output(PageCase):
             with self.subTest(lines[-1]):
                 if "f_s[" in lines[-1]:
                     lines = ["unfix move", "fix s all shape/gran type 1 box 0.5 0.5 0.5 density 1", *lines]
-                log = self.simulate([law, *talus, *lines], {"pair", "fix floor"}, steps=100)
+                mixed = ["set group all type/ratio 2 0.5 4711"] if "v_lacey" in lines[-1] else []
+                log = self.simulate([law, *mixed, *talus, *lines], {"pair", "fix floor"}, steps=100)
                 self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
                 for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
                     self.assertTrue(os.path.getsize(self.path(name)))
