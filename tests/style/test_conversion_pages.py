@@ -1,15 +1,16 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=300
 """Every line of the pages on other codes, on choosing coefficients and on output runs; both lines of a row give the same
-motion, but for the half step by which integrators differ."""
+motion, but for the half step by which integrators differ. Pebbles of the page on clumps fall."""
 
+import math
 import os
 import random
 import re
 import unittest
 
 import body_meshes
-from doc_tables import blocks, commands, page, rows
+from doc_tables import SOURCE, blocks, commands, page, rows
 from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, thermo, write_sphere_data
 
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
@@ -212,6 +213,26 @@ class Output(PageCase):
                 self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
                 for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
                     self.assertTrue(os.path.getsize(self.path(name)))
+
+
+class Pebbles(SceneCase):
+
+    def test_lines(self):
+        """A lattice of 4 x 4 x 6 clumps in free fall, and none of its spheres on its own."""
+        lines, = [block for block in blocks(page("fix_rigid_small_symplectic.md")) if "input/pebble.mol" in block]
+        log = self.run_lammps(head(units="si") + "region box block 0 0.08 0 0.08 0 0.2 units box\ncreate_box 1 box\n"
+                              "pair_style gran/penalty\npair_coeff * * hooke 1e4 20\nneighbor 0.001 bin\ntimestep 1e-5\n"
+                              + lines.replace("input/", os.path.join(SOURCE, "input", ""))
+                              + "compute one all rigid/local move mass\ncompute clumps all reduce sum c_one inputs local\n"
+                              "compute least all reduce min c_one inputs local\nvariable total equal mass(all)\n"
+                              "variable speed equal vcm(all,z)\n"
+                              "thermo_style custom step atoms c_clumps c_least v_total v_speed\nthermo_modify format float %.12g\nrun 100\n").log
+        last = thermo(log)[-1]
+        self.assertEqual(last["Atoms"], 3 * 4 * 4 * 6)
+        mass = 2600 * math.pi / 6 * 0.016**3 * (0.56**3 + 0.52**3 + 0.60**3)
+        self.assertAlmostEqual(last["c_least"], mass, delta=1e-9 * mass)
+        self.assertAlmostEqual(last["c_clumps"], last["v_total"], delta=1e-9 * last["v_total"])
+        self.assertAlmostEqual(last["v_speed"], -9.81e-3, delta=1e-9)
 
 
 class FirstPage(SceneCase):
