@@ -1,16 +1,17 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=300
 """Every line of the pages on other codes, on choosing coefficients and on output runs; both lines of a row give the same
-motion, but for the half step by which integrators differ."""
+motion, but for the half step by which integrators differ. Pebbles of the page on clumps fall, and parcels rebound as grains do."""
 
+import math
 import os
 import random
 import re
 import unittest
 
 import body_meshes
-from doc_tables import blocks, commands, page, rows
-from talus_testing import SceneCase, Sphere, head, max_difference, read_dump, thermo, write_sphere_data
+from doc_tables import SOURCE, blocks, commands, page, rows
+from talus_testing import SceneCase, Sphere, begin, head, max_difference, read_dump, thermo, write_sphere_data
 
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
@@ -195,6 +196,49 @@ run 60
             self.assertLess(deepest, 0.0101)
 
 
+class Parcels(SceneCase):
+    """What the page says of parcels is exact: a skew impact of grains that are K times as large is the same, K times as long."""
+
+    K = 3.0
+    LAWS = [("hooke {} {} tangential multistep NULL NULL 0.5 rolling 0.1", (2e3, 1), (30, -1)),
+            ("hertz {} {} tangential multistep NULL NULL 0.5 rolling 0.1", (1e6, 0), (3e2, -2)),
+            ("hertz/material {} 0.7 0.25 tangential multistep NULL NULL 0.5", (1e6, 0)),
+            ("jkr {} {} 0.25 {} tangential multistep NULL NULL 0.5", (1e6, 0), (3e2, -2), (0.5, 1)),
+            ("dmt {} {} 0.25 {} tangential multistep NULL NULL 0.5", (1e6, 0), (3e2, -2), (0.5, 1)),
+            ("hooke {} {} tangential multistep NULL NULL 0.5 adhesion constant {}", (2e3, 1), (30, -1), (3.0, 2)),
+            ("hooke {} {} tangential multistep NULL NULL 0.5 adhesion dmt {}", (2e3, 1), (30, -1), (3.0, 1.5)),
+            ("hooke {} {} tangential multistep NULL NULL 0.5 adhesion perko {}", (2e3, 1), (30, -1), (3.0, 1))]
+
+    def impact(self, k, law, *numbers):
+        """Velocity and spin, times the size, of the first grain in steps of the impact."""
+        write_sphere_data(self.path("grains"), [(-4 * k, 4 * k)] * 3,
+                          [Sphere((-0.501 * k, 0, 0), v=(0.5, 0.2, 0), omega=(0, 0, 1 / k), diameter=k),
+                           Sphere((0.501 * k, 0, 0), v=(-0.5, 0, 0), diameter=k)])
+        law = law.format(*(repr(number * k**power) for number, power in numbers))
+        rows = thermo(self.run_lammps(begin(read="read_data grains", law=law, skin=0.1 * k, dt=4e-4 * k) + f"""
+fix move all nve/sphere/symplectic
+variable vx equal vx[1]
+variable vy equal vy[1]
+compute spin all property/atom omegaz
+variable spin equal {k}*C_spin[1]
+thermo_style custom step v_vx v_vy v_spin
+thermo 10
+thermo_modify format float %.12g
+run 250
+""").log)
+        return [value for row in rows for value in (row["v_vx"], row["v_vy"], row["v_spin"])]
+
+    def test_impacts(self):
+        for law, *numbers in self.LAWS:
+            with self.subTest(law):
+                grain, parcel = (self.impact(k, law, *numbers) for k in (1.0, self.K))
+                self.assertLess(grain[-3], 0.2)    # it was stopped, or came back
+                self.assertNotEqual(grain[-1], grain[2])
+                self.assertLess(max(abs(a - b) for a, b in zip(grain, parcel)), 1e-9)
+        grain, parcel = (self.impact(k, self.LAWS[0][0], (2e3, 0), (30, -1)) for k in (1.0, self.K))
+        self.assertGreater(max(abs(a - b) for a, b in zip(grain, parcel)), 1e-3)    # it would be seen
+
+
 class Output(PageCase):
 
     def test_tables(self):
@@ -207,10 +251,32 @@ class Output(PageCase):
             with self.subTest(lines[-1]):
                 if "f_s[" in lines[-1]:
                     lines = ["unfix move", "fix s all shape/gran type 1 box 0.5 0.5 0.5 density 1", *lines]
-                log = self.simulate([law, *talus, *lines], {"pair", "fix floor"}, steps=100)
+                mixed = ["set group all type/ratio 2 0.5 4711"] if "v_lacey" in lines[-1] else []
+                log = self.simulate([law, *mixed, *talus, *lines], {"pair", "fix floor"}, steps=100)
                 self.assertEqual(re.findall("WARNING: (?!.*overlap).*", log), [])
                 for name in re.findall(r"file (\S+\.txt)", " ".join(lines)):
                     self.assertTrue(os.path.getsize(self.path(name)))
+
+
+class Pebbles(SceneCase):
+
+    def test_lines(self):
+        """A lattice of 4 x 4 x 6 clumps in free fall, and none of its spheres on its own."""
+        lines, = [block for block in blocks(page("fix_rigid_small_symplectic.md")) if "input/pebble.mol" in block]
+        log = self.run_lammps(head(units="si") + "region box block 0 0.08 0 0.08 0 0.2 units box\ncreate_box 1 box\n"
+                              "pair_style gran/penalty\npair_coeff * * hooke 1e4 20\nneighbor 0.001 bin\ntimestep 1e-5\n"
+                              + lines.replace("input/", os.path.join(SOURCE, "input", ""))
+                              + "compute one all rigid/local move mass\ncompute clumps all reduce sum c_one inputs local\n"
+                              "compute least all reduce min c_one inputs local\nvariable total equal mass(all)\n"
+                              "variable speed equal vcm(all,z)\n"
+                              "thermo_style custom step atoms c_clumps c_least v_total v_speed\n"
+                              "thermo_modify format float %.12g\nrun 100\n").log
+        last = thermo(log)[-1]
+        self.assertEqual(last["Atoms"], 3 * 4 * 4 * 6)
+        mass = 2600 * math.pi / 6 * 0.016**3 * (0.56**3 + 0.52**3 + 0.60**3)
+        self.assertAlmostEqual(last["c_least"], mass, delta=1e-9 * mass)
+        self.assertAlmostEqual(last["c_clumps"], last["v_total"], delta=1e-9 * last["v_total"])
+        self.assertAlmostEqual(last["v_speed"], -9.81e-3, delta=1e-9)
 
 
 class FirstPage(SceneCase):
