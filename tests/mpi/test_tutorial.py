@@ -49,7 +49,7 @@ class Tutorial(CoupledCase):
         return self.read("log.run")
 
     def test_a_script_of_lammps(self):
-        stock, talus = (self.script("in.box", words, edge=5, time=0.6) for words in ((), ("-sf", "talus")))
+        stock, talus = (self.script("in.box", words, np, edge=5, time=0.6) for words, np in (((), 1), (("-sf", "talus"), 2)))
         styles = re.findall(r"^  (?:pair|fix|run) .* accelerated$", talus, re.M)
         self.assertEqual(len(styles), 5, "pair, move, fall, floor, run")
         stock, talus = thermo(stock), thermo(talus)
@@ -71,8 +71,8 @@ class Tutorial(CoupledCase):
 
     def test_heaps(self):
         angles = []
-        for np, mu, rolling in (1, 0.05, 0.0), (2, 0.5, 0.3):
-            log = self.script("in.heap", np=np, mu=mu, rolling=rolling, length=7, height=7, width=4, rest=25)
+        for mu, rolling in (0.05, 0.0), (0.5, 0.3):
+            log = self.script("in.heap", mu=mu, rolling=rolling, length=7, height=7, width=4, rest=25)
             angle, grains = re.search(r"^Result: .* angle (\S+) grains (\d+)$", log, re.M).groups()
             self.assertGreater(int(grains), 40)
             angles.append(float(angle))
@@ -81,7 +81,7 @@ class Tutorial(CoupledCase):
 
     def test_blade(self):
         """Grains push it up, then back; their work on it is that of the forces of each row on its ways."""
-        said = self.launch([sys.executable, os.path.join(FOLDER, "blade.py"), "--speed", "0.4", "--way", "0.008", "--out", self.dir], np=2)
+        said = self.launch([sys.executable, os.path.join(FOLDER, "blade.py"), "--speed", "0.4", "--way", "0.008", "--out", self.dir])
         up, back, work = map(float, re.search(r"against (\S+) N at most\n.*against (\S+) N .*work (\S+) J", said).groups())
         self.assertTrue(0.1 < up < 10 and 0.05 < back < 5, said)
         rows = [list(map(float, line.split())) for line in self.read("force.txt").splitlines()[1:]]
