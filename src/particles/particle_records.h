@@ -224,7 +224,12 @@ class ParticleRecords {
                   int count);
   template <bool rotation, bool changes, bool sums>
   Vec4 move(const KickAndDrift &step, std::size_t slot);
-  bool are_idle(const std::vector<Role> &role, const SlotChoice &slots, int begin) const;
+  struct Group {
+    std::uint64_t idle, others;
+  };
+  Group group_at(const Role *role, const SlotChoice &slots, int n) const;
+  template <bool rotation>
+  void prefetch_group(const SlotChoice &slots, int n, bool with_sums) const;
   template <bool rotation, bool changes>
   double advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                      const SlotChoice &slots);
