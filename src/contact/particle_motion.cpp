@@ -12,20 +12,26 @@
 
 namespace Talus {
 
-void ParticleMotion::prepare(const std::function<int(int)> &mover, const std::vector<int> &sent)
+void ParticleMotion::prepare(const Movers &find_movers, const std::vector<int> &sent)
 {
+  std::vector<signed char> mover(of.order.owned);
+  of.in_ranges(of.order.owned,
+               [&](int begin, int end) { find_movers(begin, end, mover.data() + begin); });
   std::atomic<bool> all{true}, all_owned{true};
   role.resize(of.order.size());
   of.in_ranges(of.order.size(), [&](int begin, int end) {
+    bool all_here = true, all_owned_here = true;
     for (int s = begin; s < end; s++) {
       const int a = of.order.atom_of_slot[s];
-      const int moved_by = of.order.is_owned(a) ? mover(a) : -1;
-      role[s] = !of.order.is_owned(a) ? ParticleRecords::GHOST
-                : moved_by < 0        ? ParticleRecords::RESTS
-                                      : ParticleRecords::Role(ParticleRecords::MOVES + moved_by);
-      if (role[s] != ParticleRecords::MOVES) all.store(false, std::memory_order_relaxed);
-      if (role[s] == ParticleRecords::RESTS) all_owned.store(false, std::memory_order_relaxed);
+      const int found = !of.order.is_owned(a) ? ParticleRecords::GHOST
+                        : mover[a] < 0        ? ParticleRecords::RESTS
+                                              : ParticleRecords::MOVES + mover[a];
+      role[s] = ParticleRecords::Role(found);
+      all_here = all_here && found == ParticleRecords::MOVES;
+      all_owned_here = all_owned_here && found != ParticleRecords::RESTS;
     }
+    if (!all_here) all = false;
+    if (!all_owned_here) all_owned = false;
   });
   if (all) role.clear();
   all_owned_move = all_owned;

@@ -22,6 +22,9 @@ class ContactPipeline;
 
 class ParticleMotion {
  public:
+  /// (begin, end, to): asked by all threads for those of some owned particles.
+  using Movers = std::function<void(int, int, signed char *)>;
+
   explicit ParticleMotion(ContactPipeline &contacts) : of(contacts) {}
   ParticleMotion(const ParticleMotion &) = delete;
   ParticleMotion &operator=(const ParticleMotion &) = delete;
@@ -33,9 +36,9 @@ class ParticleMotion {
   void leave() { in_records = prepared = pending = false; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
-  /// by local index: the number of the step that moves a particle, -1 if none does (asked by all
-  /// threads); and whose states are sent away before forces are computed.
-  void prepare(const std::function<int(int)> &mover, const std::vector<int> &sent);
+  /// by local index: the numbers of the steps that move them, -1 where none does; and whose states
+  /// are sent away before forces are computed.
+  void prepare(const Movers &find_movers, const std::vector<int> &sent);
   bool is_prepared() const { return prepared; }
   /// Moves the owned particles, if holds_state(): those at once that are sent, the others on the
   /// way through the next compute().

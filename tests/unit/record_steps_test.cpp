@@ -128,10 +128,17 @@ class RecordSteps : public testing::TestWithParam<Division> {
     pipeline.compute_late(of.view(), step);
   }
 
+  template <class Mover> static ParticleMotion::Movers for_each(Mover mover)
+  {
+    return [mover](int begin, int end, signed char *to) {
+      for (int i = begin; i < end; i++) to[i - begin] = static_cast<signed char>(mover(i));
+    };
+  }
+
   void advance()
   {
     if (!fast.motion().is_prepared())
-      fast.motion().prepare([this](int i) { return moves(i) ? 0 : -1; }, sent);
+      fast.motion().prepare(for_each([this](int i) { return moves(i) ? 0 : -1; }), sent);
     fast.motion().advance({euler});
   }
 
@@ -241,7 +248,7 @@ TEST_P(RecordSteps, OfSeveralIntegratorsWithWeights)
 
     const bool held = fast.motion().holds_state();
     if (held) {
-      if (!fast.motion().is_prepared()) fast.motion().prepare(mover, sent);
+      if (!fast.motion().is_prepared()) fast.motion().prepare(for_each(mover), sent);
       fast.motion().advance(steps);
       EXPECT_TRUE(fast.motion().is_moving());
     } else if (n > 0) {

@@ -15,7 +15,7 @@ using namespace LAMMPS_NS;
 namespace Talus {
 namespace {
 
-constexpr std::size_t most_integrators = 32;
+constexpr std::size_t most_integrators = 32;    // numbered with 8 bits
 
 bool any_rank(bool here, MPI_Comm world)
 {
@@ -106,16 +106,19 @@ std::string Integrators::reason_against_records(const Fix *fix_of_shapes) const
   return "";
 }
 
-/* -1 as well if none does any more: their groups have no common members. */
+/* The first one that there is. -1 as well if none does any more: their groups have no common
+   members. */
 
-int Integrators::mover_of(int i) const
+void Integrators::find_movers(int begin, int end, signed char *mover) const
 {
-  for (std::size_t n = 0; n < of_run.size(); n++) {
-    const auto &[fix, talus_fix] = of_run[n];
-    if (!(atom->mask[i] & fix->groupbit) || !talus_fix->moves_particle(i)) continue;
-    return talus_fix->places_particles() ? -1 : static_cast<int>(n);
+  std::fill_n(mover, end - begin, -1);
+  for (std::size_t n = of_run.size(); n-- > 0;) {
+    const SystemFix &talus_fix = *of_run[n].talus_fix;
+    const int bit = of_run[n].fix->groupbit;
+    const auto found = static_cast<signed char>(talus_fix.places_particles() ? -1 : n);
+    for (int i = begin; i < end; i++)
+      if ((atom->mask[i] & bit) && talus_fix.moves_particle(i)) mover[i - begin] = found;
   }
-  return -1;
 }
 
 bool Integrators::give(const RecordStep &step)

@@ -46,8 +46,9 @@ class Integrators : protected LAMMPS_NS::Pointers {
   /// Of such a run, collective: "", or why they cannot move particles in the records. `fix_of_shapes`:
   /// nullptr, or the one that checks itself that no other fix moves its particles.
   std::string reason_against_records(const LAMMPS_NS::Fix *fix_of_shapes) const;
-  /// Which of them moves an owned particle (local index) on the way through the records, -1: none.
-  int mover_of(int i) const;
+  /// Which of them moves each of the owned particles begin ... end-1 on the way through the records,
+  /// -1: none, to mover[0] ...; called by all threads.
+  void find_movers(int begin, int end, signed char *mover) const;
   /// The step of one, each in its turn. Returns whether all have given theirs, in steps().
   bool give(const RecordStep &step);
   const std::vector<RecordStep> &steps() const { return given; }

@@ -43,7 +43,11 @@ void Step::advance(const Fix *integrator, const RecordStep &step, int frozen_gro
   }
   if (!parts.movers.give(step)) return;
   if (!contacts().motion().is_prepared()) {
-    contacts().motion().prepare([this](int i) { return parts.movers.mover_of(i); }, proxies.sent());
+    contacts().motion().prepare(
+        [this](int begin, int end, signed char *mover) {
+          parts.movers.find_movers(begin, end, mover);
+        },
+        proxies.sent());
   }
   system.weights().begin_step(contacts());
   contacts().motion().advance(parts.movers.steps());
