@@ -18,21 +18,14 @@ namespace {
 
 constexpr int words = sizeof(ProxyOrigin) / sizeof(int);
 
-/// Of the owned particles; room for the ghosts behind them.
-std::vector<ProxyOrigin> origins_of_owned(const Atom &atom, int me)
-{
-  std::vector<ProxyOrigin> all(atom.nlocal + atom.nghost);
-  for (int i = 0; i < atom.nlocal; i++) all[i] = {me, i, {0, 0, 0}};
-  return all;
-}
-
-/// What one message of a swap sends.
-std::vector<ProxyOrigin> sent_origins(const std::vector<ProxyOrigin> &all, int count,
-                                      const int *list, bool shifted, const int *pbc)
+/// What one message of a swap sends: of owned particles, and of ghosts what is known by then.
+std::vector<ProxyOrigin> sent_origins(int me, int owned, const std::vector<ProxyOrigin> &of_ghosts,
+                                      int count, const int *list, bool shifted, const int *pbc)
 {
   std::vector<ProxyOrigin> sent(count);
   for (int k = 0; k < count; k++) {
-    sent[k] = all[list[k]];
+    const int i = list[k];
+    sent[k] = i < owned ? ProxyOrigin{me, i, {0, 0, 0}} : of_ghosts[i - owned];
     if (shifted)
       for (int d = 0; d < 3; d++) sent[k].shift[d] += pbc[d];
   }
@@ -57,11 +50,11 @@ double gap(const RankBox &a, const RankBox &b, int d, double period)
 
 template <> std::vector<ProxyOrigin> CommProxy<CommReach>::trace_origins(MPI_Comm communicator)
 {
-  std::vector<ProxyOrigin> all = origins_of_owned(*atom, me);
+  std::vector<ProxyOrigin> of_ghosts(atom->nghost);
   for (int swap = 0; swap < nswap; swap++) {
-    const std::vector<ProxyOrigin> sent =
-        sent_origins(all, sendnum[swap], sendlist[swap], pbc_flag[swap] != 0, pbc[swap]);
-    ProxyOrigin *to = all.data() + firstrecv[swap];
+    const std::vector<ProxyOrigin> sent = sent_origins(
+        me, atom->nlocal, of_ghosts, sendnum[swap], sendlist[swap], pbc_flag[swap] != 0, pbc[swap]);
+    ProxyOrigin *to = of_ghosts.data() + (firstrecv[swap] - atom->nlocal);
     if (sendproc[swap] == me)
       std::copy(sent.begin(), sent.end(), to);
     else
@@ -69,8 +62,7 @@ template <> std::vector<ProxyOrigin> CommProxy<CommReach>::trace_origins(MPI_Com
                    words * recvnum[swap], MPI_INT, recvproc[swap], TAG_ORIGIN, communicator,
                    MPI_STATUS_IGNORE);
   }
-  all.erase(all.begin(), all.begin() + atom->nlocal);
-  return all;
+  return of_ghosts;
 }
 
 /* All ranks within the reach of the swaps. The reach is the same for all ranks, so this is
@@ -104,26 +96,27 @@ template <> std::vector<int> CommProxy<CommReach>::possible_neighbors()
 
 template <> std::vector<ProxyOrigin> CommProxy<CommTiled>::trace_origins(MPI_Comm communicator)
 {
-  std::vector<ProxyOrigin> all = origins_of_owned(*atom, me);
+  std::vector<ProxyOrigin> of_ghosts(atom->nghost);
+  const auto received = [&](int first) { return of_ghosts.data() + (first - atom->nlocal); };
   for (int swap = 0; swap < nswap; swap++) {
     const int own = sendself[swap], receives = nrecvproc[swap] - own, sends = nsendproc[swap] - own;
     std::vector<MPI_Request> requests(receives);
     for (int n = 0; n < receives; n++)
-      MPI_Irecv(all.data() + firstrecv[swap][n], words * recvnum[swap][n], MPI_INT,
-                recvproc[swap][n], TAG_ORIGIN, communicator, &requests[n]);
+      MPI_Irecv(received(firstrecv[swap][n]), words * recvnum[swap][n], MPI_INT, recvproc[swap][n],
+                TAG_ORIGIN, communicator, &requests[n]);
     for (int n = 0; n < sends + own; n++) {
-      const std::vector<ProxyOrigin> sent = sent_origins(all, sendnum[swap][n], sendlist[swap][n],
-                                                         pbc_flag[swap][n] != 0, pbc[swap][n]);
+      const std::vector<ProxyOrigin> sent =
+          sent_origins(me, atom->nlocal, of_ghosts, sendnum[swap][n], sendlist[swap][n],
+                       pbc_flag[swap][n] != 0, pbc[swap][n]);
       if (n == sends)
-        std::copy(sent.begin(), sent.end(), all.data() + firstrecv[swap][receives]);
+        std::copy(sent.begin(), sent.end(), received(firstrecv[swap][receives]));
       else
         MPI_Send(sent.data(), words * sendnum[swap][n], MPI_INT, sendproc[swap][n], TAG_ORIGIN,
                  communicator);
     }
     MPI_Waitall(receives, requests.data(), MPI_STATUSES_IGNORE);
   }
-  all.erase(all.begin(), all.begin() + atom->nlocal);
-  return all;
+  return of_ghosts;
 }
 
 /* All ranks whose domains are within the cutoff of this one's, along each edge: no ghost comes from

@@ -13,6 +13,7 @@ namespace Talus {
 namespace {
 
 constexpr double none = -1.0;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// floor(2 log2(unit / radius)), within the classes.
 int class_of(double radius, double unit)
@@ -60,6 +61,11 @@ ProxyReach::ProxyReach(DomainGrid around, const ClassRadii &classes, double unit
     if (is_there(c)) first_class = c;
   for (int c = 0; c < num_classes; c++)
     if (is_there(c)) last_class = c;
+  own.fill({-infinity, infinity, true});
+  for (int d = 0; d < 3; d++) {
+    const auto &edges = domains.along[d];
+    if (edges.size() > 1) own[d] = edges[edges.size() / 2];
+  }
 }
 
 void ProxyReach::Selection::add(const double *at, double size, int meaning)
@@ -78,12 +84,9 @@ double ProxyReach::shell(double radius) const
 
 double ProxyReach::to_faces(const double *x) const
 {
-  double least = std::numeric_limits<double>::infinity();
-  for (int d = 0; d < 3; d++) {
-    const auto &edges = domains.along[d];
-    const DomainGrid::Edge &own = edges[edges.size() / 2];
-    if (edges.size() > 1) least = std::min({least, x[d] - own.low, own.high - x[d]});
-  }
+  double least = infinity;
+  for (int d = 0; d < 3; d++)
+    least = std::min(least, std::min(x[d] - own[d].low, own[d].high - x[d]));
   return least;
 }
 
@@ -98,16 +101,20 @@ bool ProxyReach::is_in_shell(const double *x, double radius, int domain) const
   return from_y + square(gap(x[0], along_x[domain % nx])) < square(shell(radius));
 }
 
-/* Most spheres are near no face, and those that are near one are near few domains. */
+/* Most spheres are near no face, not even for the largest one, and those that are near one are near
+   few domains. */
 
 ProxyReach::Lists ProxyReach::in_shells(int owned, const double *x, const double *radius) const
 {
   Lists lists(domains.size());
   const auto &[along_x, along_y, along_z] = domains.along;
-  const std::size_t nx = along_x.size(), ny = along_y.size(), own = domains.own();
+  const std::size_t nx = along_x.size(), ny = along_y.size(), here = domains.own();
+  const double widest = owned ? 2.0 * of_class[first_class] + skin : 0.0;
   for (int i = 0; i < owned; i++) {
-    const double *const at = x + 3L * i, reach = shell(radius[i]), most = square(reach);
-    if (to_faces(at) >= reach) continue;
+    const double *const at = x + 3L * i, near = to_faces(at);
+    if (near >= widest) continue;
+    const double reach = shell(radius[i]), most = square(reach);
+    if (near >= reach) continue;
     for (std::size_t k = 0; k < along_z.size(); k++) {
       const double from_z = square(gap(at[2], along_z[k]));
       if (!along_z[k].present || from_z >= most) continue;
@@ -116,7 +123,8 @@ ProxyReach::Lists ProxyReach::in_shells(int owned, const double *x, const double
         if (!along_y[j].present || from_y >= most) continue;
         for (std::size_t m = 0; m < nx; m++) {
           const std::size_t domain = (k * ny + j) * nx + m;
-          if (along_x[m].present && domain != own && from_y + square(gap(at[0], along_x[m])) < most)
+          if (along_x[m].present && domain != here &&
+              from_y + square(gap(at[0], along_x[m])) < most)
             lists[domain].push_back(i);
         }
       }

@@ -83,6 +83,8 @@ class ProxyReach {
                       Selection &to) const;
 
   DomainGrid domains;
+  /// Of the own domain; infinite where it has no other one beside it.
+  std::array<DomainGrid::Edge, 3> own;
   ClassRadii of_class;
   double unit, skin;
   int first_class = 0, last_class = -1;    // that are there
