@@ -22,11 +22,12 @@ using Ints = VectorOf<std::int32_t, width>;
 
 }    // namespace
 
-/* Places beyond the outermost cells, which only rounding makes, belong to these. */
+/* Places beyond the outermost cells, which only rounding makes, belong to these; those below 0 are
+   rounded up to it, or stay below. */
 
 int NeighborSearch::Grid::cell(double place, int d) const
 {
-  return std::clamp(static_cast<int>(std::floor(place * per_place[d])), 0, cells[d] - 1);
+  return std::clamp(static_cast<int>(place * per_place[d]), 0, cells[d] - 1);
 }
 
 /* Of the places and sizes of all spheres. */
@@ -37,15 +38,46 @@ struct NeighborSearch::Extent {
   double sum = 0.0, largest = 0.0;    // of radii
   double check = 0.0;                 // not a number if any position is not
 
-  void add(const double *x, double radius)
+  void add(const double *x, int d)
   {
-    for (int d = 0; d < 3; d++) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-      check += 0.0 * x[d];
+    low[d] = std::min(low[d], *x);
+    high[d] = std::max(high[d], *x);
+    check += 0.0 * *x;
+  }
+  /// Of several spheres. Four of them fill three vectors.
+  void add_all(const double *x, const double *radius, int count)
+  {
+    Vec4 lows[3], highs[3], checks[3] = {}, sums{}, most{};
+    for (int part = 0; part < 3; part++) {
+      lows[part] = splat<Vec4>(far);
+      highs[part] = splat<Vec4>(-far);
     }
-    sum += radius;
-    largest = std::max(largest, radius);
+    int a = 0;
+    for (; a + 4 <= count; a += 4) {
+      for (int part = 0; part < 3; part++) {
+        const Vec4 four_of = Memory<Vec4>::load_anywhere(x + 3L * a + 4L * part);
+        lows[part] = select(four_of < lows[part], four_of, lows[part]);
+        highs[part] = larger(four_of, highs[part]);
+        checks[part] = checks[part] + splat<Vec4>(0.0) * four_of;
+      }
+      const Vec4 radii = Memory<Vec4>::load_anywhere(radius + a);
+      sums = sums + radii;
+      most = larger(radii, most);
+    }
+    for (int k = 0; k < 12; k++) {
+      low[k % 3] = std::min(low[k % 3], lows[k / 4][k % 4]);
+      high[k % 3] = std::max(high[k % 3], highs[k / 4][k % 4]);
+      check += checks[k / 4][k % 4];
+    }
+    for (int k = 0; k < 4; k++) {
+      sum += sums[k];
+      largest = std::max(largest, most[k]);
+    }
+    for (; a < count; a++) {
+      for (int d = 0; d < 3; d++) add(x + 3L * a + d, d);
+      sum += radius[a];
+      largest = std::max(largest, radius[a]);
+    }
   }
   void join(const Extent &other)
   {
@@ -69,7 +101,7 @@ NeighborSearch::Extent NeighborSearch::extent_of(const Spheres &s, int threads)
     for (int n = begin; n < end; n++) {
       Extent of_block;
       const int first = n * block, last = first + std::min(block, s.total - first);
-      for (int a = first; a < last; a++) of_block.add(s.x + 3L * a, s.radius[a]);
+      of_block.add_all(s.x + 3L * first, s.radius + first, last - first);
       found[n] = of_block;
     }
   });

@@ -105,6 +105,7 @@ void PairRows::take_reversed(int range, const std::vector<Finds> &finds)
 void PairRows::copy(int second, int *firsts, double *weights) const
 {
   const int count = size(second);
+  if (count == 0) return;
   if (count <= usual && !weights) {
     alignas(64) std::int32_t numbers[usual];
     std::fill_n(numbers, usual, std::numeric_limits<std::int32_t>::max());

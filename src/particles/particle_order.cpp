@@ -61,11 +61,13 @@ void ParticleOrder::arrange(int num_owned, const std::vector<std::uint64_t> &key
     atom_of_slot[slot] = atom;
     slot_of_atom[atom] = slot;
   };
-  // merges them: each ghost finds its place, owned ones fill the rest
+  // merges them: each ghost finds its place behind that of the one before, owned ones fill the rest
   std::vector<int> ours_before(ghosts.size());
   in_ranges(total - owned, threads, [&](int, int begin, int end) {
+    auto next = ours.begin();
+    if (begin < end) next = std::lower_bound(next, ours.end(), ghosts[begin], before);
     for (int g = begin; g < end; g++) {
-      const auto next = std::lower_bound(ours.begin(), ours.end(), ghosts[g], before);
+      while (next != ours.end() && before(*next, ghosts[g])) ++next;
       ours_before[g] = static_cast<int>(next - ours.begin());
       put(ours_before[g] + g, ghosts[g]);
     }
