@@ -240,47 +240,6 @@ void FixContactStore::end_of_step()
   if (update->ntimestep == output->next || update->ntimestep == update->laststep) require_numbers();
 }
 
-/* A square that overflows counts as well: energies and moves are no numbers then. */
-
-RunMonitor::Finding FixContactStore::find_no_number() const
-{
-  double **const rows[] = {atom->x, atom->v, atom->omega};
-  for (int q = 0; q < 3; q++)
-    for (int i = 0; i < atom->nlocal; i++) {
-      const double *v = rows[q][i];
-      if (!std::isfinite(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
-        return {1.0, {static_cast<double>(atom->tag[i]), static_cast<double>(q)}};
-    }
-  return {};
-}
-
-void FixContactStore::report_no_number(const RunMonitor::Finding &found) const
-{
-  constexpr const char *quantities[] = {"position", "velocity", "angular velocity"};
-  error->all(FLERR,
-             "Pair style {}: the {} of particle {:.0f} is not a number, or much too large, at step "
-             "{}: use a smaller time step, or look for what has set it (velocity, set, read_data, "
-             "a fix)",
-             system->pair_style().name(), quantities[static_cast<int>(found.details[1])],
-             found.details[0], update->ntimestep);
-}
-
-/* Of several ranks the particle with the lowest ID. */
-
-void FixContactStore::require_numbers() const
-{
-  if (!has_pairs()) return;
-  struct {
-    double tag;
-    int quantity;
-  } mine{std::numeric_limits<double>::max(), 0}, first;
-  const RunMonitor::Finding here = find_no_number();
-  if (here.value > 0.0) mine = {here.details[0], static_cast<int>(here.details[1])};
-  MPI_Allreduce(&mine, &first, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
-  if (first.tag < std::numeric_limits<double>::max())
-    report_no_number({1.0, {first.tag, static_cast<double>(first.quantity)}});
-}
-
 /* From here on each particle carries its slot along, also if it is moved or deleted before
    histories are stored. */
 

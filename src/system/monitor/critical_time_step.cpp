@@ -86,7 +86,8 @@ double CriticalTimeStep::smallest() const
 
 std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
 {
-  GranularSystem &system = *GranularSystem::of(lmp);
+  const EffectiveMasses &masses = GranularSystem::of(lmp)->masses();
+  const bool rigid = masses.bodies_are_rigid();
   std::vector<double> mine(3 * (static_cast<size_t>(types) + 1), never);
   std::vector<std::vector<double>> found(comm->nthreads);
   in_ranges(atom->nlocal, comm->nthreads, [&](int t, int begin, int end) {
@@ -96,9 +97,10 @@ std::vector<double> CriticalTimeStep::smallest_here(int types, int groups) const
       if ((atom->mask[i] & groups) != groups) continue;
       const int type = atom->type[i];
       r[type] = std::min(r[type], atom->radius[i]);
-      if (system.masses().knows(i)) m[type] = std::min(m[type], system.masses().of_body(i));
+      if (rigid && masses.knows(i)) m[type] = std::min(m[type], masses.of_body(i));
       own_mass[type] = std::min(own_mass[type], atom->rmass[i]);
     }
+    if (!rigid) std::copy(own_mass, own_mass + types + 1, m);
     found[t] = std::move(of_thread);
   });
   for (const std::vector<double> &of_thread : found)
