@@ -72,10 +72,13 @@ double ParticleMotion::fastest() const
 void ParticleMotion::complete()
 {
   if (!pending) return;
-  Talus::in_ranges(of.order.size(), of.threads, [&](int t, int begin, int end) {
-    move_shared(t);
-    move_on_the_way(t, {begin, end});
-  });
+  const std::int64_t n = of.order.size();
+  const auto move_range = [&](int t) {
+    move_on_the_way(
+        t, {static_cast<int>(n * t / of.threads), static_cast<int>(n * (t + 1) / of.threads)});
+  };
+  in_parallel(
+      of.threads, of.threads, [this](int t) { move_shared(t); }, move_range);
   pending = false;
 }
 

@@ -224,13 +224,12 @@ class ParticleRecords {
                   int count);
   template <bool rotation, bool changes, bool sums>
   Vec4 move(const KickAndDrift &step, std::size_t slot);
-  struct Idle {
-    bool all = false;            ///< of the group
-    std::uint64_t moving = 0;    ///< one byte of each that is moved: 1, else 0
+  struct Group {
+    std::uint64_t idle, others;
   };
-  Idle find_idle(const Role *role, const SlotChoice &slots, int n, int count) const;
-  template <bool rotation, bool changes>
-  Vec4 advance_idle(const KickAndDrift &step, const SlotChoice &slots, int n, std::uint64_t moving);
+  Group group_at(const Role *role, const SlotChoice &slots, int n) const;
+  template <bool rotation>
+  void prefetch_group(const SlotChoice &slots, int n, bool with_sums) const;
   template <bool rotation, bool changes>
   double advance_all(const std::vector<RecordStep> &steps, const std::vector<Role> &role,
                      const SlotChoice &slots);

@@ -69,51 +69,50 @@ inline Vec4 ParticleRecords::move(const KickAndDrift &step, std::size_t s)
   return v_new;
 }
 
-/* Up to eight slots from this one on, on none of which anything has acted, and of which the first
-   step moves some and the others are ghosts, whose sums are what they begin with: in dilute scenes
-   most. Asked for eight at once, for of a single one the answer is unpredictable. */
+/* Of eight slots from this one on, or as many as there are: one byte of each, 1 or 0. On most nothing
+   has acted: those that the first step moves have sums that are still what they begin with, and idle
+   ghosts are as they should be. All eight are asked at once, for the answer of a single one is
+   unpredictable. */
 
-ParticleRecords::Idle ParticleRecords::find_idle(const Role *role, const SlotChoice &slots, int n,
-                                                 int count) const
+inline ParticleRecords::Group ParticleRecords::group_at(const Role *role, const SlotChoice &slots,
+                                                        int n) const
 {
-  static_assert(GHOST == 0 && MOVES == 2, "one bit tells them apart");
-  constexpr std::uint64_t eight_ones = 0x0101010101010101U;
-  const auto bytes = [&slots, n](const unsigned char *of, std::uint64_t chosen) {
+  constexpr std::uint64_t ones = 0x0101010101010101U;
+  const int count = std::min(lanes, slots.end - n);
+  const auto bytes = [&slots, n, count](const void *of) {
+    const auto *const first = static_cast<const unsigned char *>(of);
     std::uint64_t word = 0;
-    if (!slots.list && chosen == eight_ones)
-      std::memcpy(&word, of + n, lanes);
+    if (!slots.list && count == lanes)
+      std::memcpy(&word, first + n, lanes);
     else
-      for (; chosen; chosen &= chosen - 1)
-        word |= std::uint64_t{of[slots.at(n + __builtin_ctzll(chosen) / 8)]}
-                << (__builtin_ctzll(chosen) & ~7);
+      for (int k = 0; k < count; k++) word |= std::uint64_t{first[slots.at(n + k)]} << (8 * k);
     return word;
   };
-  std::uint64_t here = eight_ones >> (8 * (lanes - count));
-  if (slots.marked) here &= ~bytes(slots.marked, here);    // other threads may change the others
-  if (bytes(acted.data(), here) != 0) return {};
-  const std::uint64_t roles =
-      role ? bytes(reinterpret_cast<const unsigned char *>(role), here) : here * MOVES;
-  if ((roles & ~(eight_ones * MOVES)) != 0) return {};
-  return {true, roles / MOVES};
+  const auto are_zero = [](std::uint64_t small) { return ~(small + 0x7FU * ones) >> 7U & ones; };
+  const std::uint64_t here =
+      ones >> (8 * (lanes - count)) & ~(slots.marked ? bytes(slots.marked) : 0);
+  const std::uint64_t roles = role ? bytes(role) : ones * MOVES, idle = here & ~bytes(acted.data());
+  const std::uint64_t moving = idle & are_zero(roles ^ (ones * MOVES)),
+                      ghosts = idle & are_zero(roles ^ (ones * GHOST));
+  return {moving, here & ~(moving | ghosts)};
 }
 
-/* Those that find_idle() has found: one byte each. Returns the square of the largest speed. */
+/* Where a group will be looked for that comes `ahead` slots later. */
 
-template <bool rotation, bool changes>
-inline Vec4 ParticleRecords::advance_idle(const KickAndDrift &step, const SlotChoice &slots, int n,
-                                          std::uint64_t moving)
+template <bool rotation>
+inline void ParticleRecords::prefetch_group(const SlotChoice &slots, int n, bool with_sums) const
 {
-  Vec4 fastest2{};
-  const auto advance_one = [&](int place) {
-    const Vec4 v = move<rotation, changes, false>(step, slots.at(place));
-    fastest2 = larger(square(clear_fourth(v)), fastest2);
-  };
-  constexpr std::uint64_t all = 0x0101010101010101U;
-  if (moving == all)
-    for (int k = 0; k < lanes; k++) advance_one(n + k);
-  else
-    for (; moving; moving &= moving - 1) advance_one(n + __builtin_ctzll(moving) / 8);
-  return fastest2;
+  constexpr std::size_t row_stride = rotation ? 2 : 1;
+  constexpr int ahead = 64;
+  const int end = std::max(slots.end, slots.next_end),
+            begin = std::max(n, std::min(n + ahead, end - lanes)),
+            count = std::min(lanes, end - begin);
+  for (int k = 0; k < count; k++) {
+    const std::size_t soon = slots.at(begin + k);
+    __builtin_prefetch(position.data() + soon, 1);
+    __builtin_prefetch(motion.data() + row_stride * soon, 1);
+    if (with_sums) __builtin_prefetch(load.data() + row_stride * soon, 1);
+  }
 }
 
 template <bool rotation, bool changes>
@@ -121,36 +120,26 @@ double ParticleRecords::advance_all(const std::vector<RecordStep> &steps,
                                     const std::vector<Role> &role, const SlotChoice &slots)
 {
   constexpr std::size_t row_stride = rotation ? 2 : 1;
-  constexpr int ahead = 64;
   const KickAndDrift first(steps[0]);
   const std::vector<KickAndDrift> others(steps.begin() + 1, steps.end());
   const Role *const roles = role.empty() ? nullptr : role.data();
-  const int last = std::max(slots.end, slots.next_end) - 1;
   Vec4 fastest2{};
-  for (int n = slots.begin; n < slots.end;) {
-    const int end = std::min(n + lanes, slots.end);
-    const Idle idle = find_idle(roles, slots, n, end - n);
-    for (int k = n; k < end; k++) {
-      const std::size_t soon = slots.at(k + std::min(ahead, last - k));
-      __builtin_prefetch(position.data() + soon, 1);
-      __builtin_prefetch(motion.data() + row_stride * soon, 1);
-      if (!idle.all) __builtin_prefetch(load.data() + row_stride * soon, 1);
-    }
-    if (idle.all) {
-      fastest2 = larger(advance_idle<rotation, changes>(first, slots, n, idle.moving), fastest2);
-      n = end;
-      continue;
-    }
-    for (; n < end; n++) {
-      const int slot = slots.at(n);
-      if (!slots.holds(slot)) continue;
-      const std::size_t s = slot;
+  const auto had_speed = [&fastest2](Vec4 v) {
+    fastest2 = larger(square(clear_fourth(v)), fastest2);
+  };
+  for (int n = slots.begin; n < slots.end; n += lanes) {
+    const Group group = group_at(roles, slots, n);
+    prefetch_group<rotation>(slots, n, group.others != 0);
+    for (std::uint64_t rest = group.idle; rest; rest &= rest - 1)
+      had_speed(move<rotation, changes, false>(first, slots.at(n + __builtin_ctzll(rest) / 8)));
+    for (std::uint64_t rest = group.others; rest; rest &= rest - 1) {
+      const std::size_t s = slots.at(n + __builtin_ctzll(rest) / 8);
       const Role role = roles ? roles[s] : MOVES;
       const Vec4 v = role == MOVES  ? move<rotation, changes, true>(first, s)
                      : role > MOVES ? move<rotation, changes, true>(others[role - MOVES - 1], s)
                                     : load4(motion[row_stride * s]);
       begin_sums(s, v);
-      if (role != GHOST) fastest2 = larger(square(clear_fourth(v)), fastest2);
+      if (role != GHOST) had_speed(v);
     }
   }
   return std::sqrt(fastest2[0]);

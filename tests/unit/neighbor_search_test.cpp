@@ -215,9 +215,13 @@ TEST(NeighborSearch, RefusesWhatIsNotANumber)
   scene.x.assign(30, 0.5);
   scene.radius.assign(10, 1.0);
   scene.owned = 10;
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    scene.x[13] = bad;
-    EXPECT_THROW(find(search, scene, 1), std::domain_error);
-  }
+  // among four that are looked at together, and behind the last four
+  for (const std::size_t place : {13, 25})
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      const double good = std::exchange(scene.x[place], bad);
+      EXPECT_THROW(find(search, scene, 1), std::domain_error);
+      scene.x[place] = good;
+      EXPECT_NO_THROW(find(search, scene, 1));
+    }
 }
