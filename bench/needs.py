@@ -18,6 +18,7 @@ QUESTION = """What does a scene save that leaves a feature out, in time, memory 
 feature matters?"""
 
 SHAPE = f"fix shapes all shape/gran type 2 box 1e-3 1e-3 1e-3 density {beds.DENSITY}\n"
+LUDING = f"luding 1e4 4e4 1e4 0.02 100.0 tangential multistep NULL NULL {beds.MU}"
 STICKS = f"hertz {beds.KN} {beds.GN} tangential multistep NULL NULL {beds.MU}"
 
 
@@ -38,6 +39,10 @@ def variants(bench):
         "multistep, rolling, spinning": (STICKS + " rolling 0.02 spinning 0.02", True, "sphere", "", "f f f"),
         "multistep, limit_damping": (STICKS + " limit_damping", True, "sphere", "", "f f f"),
         "multistep, adhesion": (STICKS + " adhesion perko 0.01", True, "sphere", "", "f f f"),
+        "multistep, liquid bridges": (STICKS + " adhesion willett 1e-3 20 fraction 0.005", True, "sphere", "", "f f f"),
+        "multistep, viscous bridges": (STICKS + " adhesion rabinovich 1e-3 20 fraction 0.005 viscosity 1e-3 0.01", True, "sphere", "",
+                                       "f f f"),
+        "multistep, elasto-plastic": (LUDING, True, "sphere", "", "f f f"),
         "multistep, impact velocity and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
                                                                                         f"{beds.NU} 1.0 tang"),
                                             True, "sphere", "", "f f f"),

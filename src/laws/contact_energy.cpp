@@ -44,7 +44,7 @@ void report_contact(const ContactLaw &law, const ContactCoefficients &row,
   to.stored = EnergyByCause{};
   if (s.separated > 0.0) return;    // the overlap and the springs are those of the last step
   to.stored.normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
-  if (law.normal().lasts_beyond_contact) to.stored.detaching = to.stored.normal;
+  if (law.whole_force_works()) to.stored.detaching = to.stored.normal;
   if (!law.has_friction()) return;
   to.stored.tangential = stored(Stage::TANGENTIAL);
   to.stored.resistance = stored(Stage::ROLLING) + stored(Stage::TWISTING);
@@ -87,13 +87,36 @@ double tangent_stiffness(const ContactLaw &law, const ContactCoefficients &row, 
   return at_rest(law, row, overlap, mass_eff, radius_eff).tangent_n;
 }
 
+/// Damping by the law of cohesion (force/velocity), along the normal and across it: what a unit of
+/// velocity changes.
+static ContactResponse with_damping_of_cohesion(const ContactLaw &law,
+                                                const ContactCoefficients &row,
+                                                const ContactLanes<double> &at_rest,
+                                                ContactResponse found)
+{
+  const auto force = [&](const Vector3<double> &velocity) {
+    ContactLanes<double> s = at_rest;
+    s.normal = {1.0, 0.0, 0.0};
+    s.velocity = velocity;
+    s.normal_velocity = velocity.x;
+    s.force = {0.0, 0.0, 0.0};
+    double nothing[ContactBatch::history_size] = {};
+    law.cohesion().one(s, law.coefficients(Stage::COHESION, row), nothing, 0.0);
+    return s.force;
+  };
+  const Vector3<double> still = force({0.0, 0.0, 0.0});
+  found.gn += still.x - force({1.0, 0.0, 0.0}).x;
+  found.gt += still.y - force({0.0, 1.0, 0.0}).y;
+  return found;
+}
+
 /* The laws of pair granular have coefficients of their own: kt, times the contact radius of those
    of Mindlin, and the share xt of the normal damping. */
 
-ContactResponse response(const ContactLaw &law, const ContactCoefficients &row, double overlap,
-                         double mass_eff, double radius_eff)
+static ContactResponse response_without_cohesion(const ContactLaw &law,
+                                                 const ContactCoefficients &row,
+                                                 const ContactLanes<double> &s)
 {
-  const ContactLanes<double> s = at_rest(law, row, overlap, mass_eff, radius_eff);
   const Law &tangential = law.tangential();
   const bool springs = tangential.has_spring || tangential.odd_history > 0;
   if (!tangential.acts) return {s.tangent_n, s.gn, 0.0, 0.0};
@@ -102,6 +125,13 @@ ContactResponse response(const ContactLaw &law, const ContactCoefficients &row, 
   const double gt = law.coefficient(Stage::TANGENTIAL, "xt", row) * s.gn;
   return {s.tangent_n, s.gn,
           springs ? kt * (tangential.needs_radius ? s.contact_radius : 1.0) : 0.0, gt};
+}
+
+ContactResponse response(const ContactLaw &law, const ContactCoefficients &row, double overlap,
+                         double mass_eff, double radius_eff)
+{
+  const ContactLanes<double> s = at_rest(law, row, overlap, mass_eff, radius_eff);
+  return with_damping_of_cohesion(law, row, s, response_without_cohesion(law, row, s));
 }
 
 double damping_ratio(const ContactLaw &law, const ContactCoefficients &row, double overlap,

@@ -19,8 +19,8 @@ namespace Talus {
 /// twisting. Dissipated: by normal damping, friction, resistance.
 struct EnergyByCause {
   double normal = 0.0, tangential = 0.0, resistance = 0.0;
-  /// Of `normal`, if stored, that of contacts that end by pull-off (jkr): their work is that of the
-  /// whole normal force.
+  /// Of `normal`, if stored, that of contacts whose whole normal force works: those that end by
+  /// pull-off, or are hysteretic.
   double detaching = 0.0;
 
   double total() const { return normal + tangential + resistance; }

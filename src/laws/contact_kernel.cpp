@@ -3,8 +3,10 @@
 #include "laws/contact_kernel.h"
 
 #include "laws/contact_work.h"
+#include "laws/end_of_touch.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
+#include "laws/law_list.h"
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
@@ -131,6 +133,16 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
   add(find_last_overlap<true>);
 }
 
+/* Laws of cohesion have no history. */
+
+void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
+{
+  if (!law.bridges()) return;
+  HistoryIndices all;
+  for (int n = 0; n < ContactBatch::history_size; n++) all[n] = n < law.history().size ? n : -1;
+  add(advance ? end_touch<true> : end_touch<false>, 0, all);
+}
+
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   const HistoryLayout layout = law.history();
@@ -143,6 +155,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
              0, layout.impact);
   for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (needs_delay(law, stage)) kernel.add(law.normal().delay);
+    if (stage == Stage::COHESION) kernel.add_end_of_touch(law, advance);
     kernel.add(advance ? stage_law.advancing : stage_law.reading, law.first_coefficient(stage),
                layout.of_stage[static_cast<int>(stage)]);
   });
@@ -162,15 +175,31 @@ static HistoryIndices consecutive_history_indices(const ContactLaw &law)
   return history_index;
 }
 
+/// The function for the stages before cohesion, nullptr if there is none that finds all that the rest reads.
+static StageFunction fused_before_cohesion(const ContactLaw &law)
+{
+  if (!law.cohesion().acts) return fused_function(law);
+  ContactLaw dry = law;
+  dry.choose(Stage::COHESION, laws_of(Stage::COHESION).front());
+  const bool is_enough = !law.tangential().second_order && law.has_friction() == dry.has_friction();
+  return is_enough ? fused_function(dry) : nullptr;
+}
+
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   const StageFunction fused =
-      uniform && (advance || !law.has_history()) ? fused_function(law) : nullptr;
+      uniform && (advance || !law.has_history()) ? fused_before_cohesion(law) : nullptr;
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
   kernel.add_end_of_contact(law);
   kernel.add(fused, 0, consecutive_history_indices(law));
+  if (law.cohesion().acts) {
+    kernel.add(run_approach<true, false, false>);    // fused functions leave nothing of it
+    kernel.add_end_of_touch(law, advance);
+    kernel.add(advance ? law.cohesion().advancing : law.cohesion().reading,
+               law.first_coefficient(Stage::COHESION));
+  }
   return kernel;
 }
 
@@ -218,12 +247,14 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   }
   for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (stage > last) return;
+    if (stage == Stage::COHESION && law.bridges()) end_touch(s);
     if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < stage_law.odd_history + stage_law.even_history; n++)
       values[n] = kept[layout.of_stage[static_cast<int>(stage)][n]];
     stage_law.one(s, law.coefficients(stage, coefficients), values, dt);
   });
+  if (last < Stage::COHESION && law.bridges()) end_touch(s);
   return s;
 }
 

@@ -79,7 +79,7 @@ HistoryLayout ContactLaw::history() const
   layout.keeps_impact = has_spring_history && reads_impact;
   if (layout.keeps_impact) layout.impact = free_indices.take(0, 3);
   layout.size = free_indices.size();
-  if (layout.size == 0 && normal().lasts_beyond_contact) layout.size = 1;    // that it touches
+  if (layout.size == 0 && lasts_beyond_contact()) layout.size = 1;    // that it touches
   return layout;
 }
 
@@ -117,20 +117,31 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
   return 0.0;
 }
 
+static double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
+                                  const ContactSize &size)
+{
+  const Stage stage = law.bridges() ? Stage::COHESION : Stage::NORMAL;
+  const auto distance = law[stage].pulloff_distance;
+  return distance ? distance(law.coefficients(stage, row), size) : 0.0;
+}
+
+static double volume_of_sphere(double radius)
+{
+  return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
+}
+
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                            double radius_j)
 {
   if (radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
-  return pulloff_distance_of(law, row, radius_i * radius_j / (radius_i + radius_j));
+  const ContactSize size{radius_i * radius_j / (radius_i + radius_j),
+                         volume_of_sphere(radius_i) + volume_of_sphere(radius_j)};
+  return pulloff_distance_of(law, row, size);
 }
 
-double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
-                           double effective_radius)
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius)
 {
-  const Law &normal = law.normal();
-  return normal.pulloff_distance
-             ? normal.pulloff_distance(law.coefficients(Stage::NORMAL, row), effective_radius)
-             : 0.0;
+  return pulloff_distance_of(law, row, ContactSize{radius, volume_of_sphere(radius)});
 }
 
 std::string describe_law(const ContactLaw &law)

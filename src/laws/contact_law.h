@@ -55,8 +55,15 @@ class ContactLaw {
   bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
   bool synchronized() const { return tangential().synchronized; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
+  /// Contacts that have begun last while bodies are apart.
+  bool lasts_beyond_contact() const { return normal().lasts_beyond_contact || bridges(); }
+  /// By a force of its own, while all others end at zero overlap.
+  bool bridges() const { return cohesion().lasts_beyond_contact; }
+  /// The whole normal force takes work, of which stored energies are a part: else only damping does,
+  /// and what is stored has all come from the elastic force.
+  bool whole_force_works() const { return lasts_beyond_contact() || normal().hysteretic; }
   /// Angular velocities are read, and torques computed.
-  bool has_friction() const { return tangential().acts || twists(); }
+  bool has_friction() const { return tangential().acts || twists() || bridges(); }
   /// The tangential spring changes with the overlap while it is stretched.
   bool stiffens() const
   {
@@ -93,8 +100,8 @@ class ContactLaw {
 /// radius is.
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                            double radius_j);
-double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
-                           double effective_radius);
+/// The same of one particle and a flat body.
+double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius);
 
 /// A law in words, e.g. "hertz + multistep + resistance".
 std::string describe_law(const ContactLaw &law);

@@ -11,8 +11,8 @@
 // time of the positions, to second order in the step. See doc/compute_penalty_stats.md for how
 // much that is.
 //
-// Of contacts that last beyond zero overlap the work is that of the whole normal force, and the
-// energy that they store at pull-off is lost like that of springs.
+// Of contacts that last beyond zero overlap or are hysteretic the work is that of the whole normal
+// force, and the energy that they store when they end is lost like that of springs.
 
 #ifndef TALUS_LAWS_CONTACT_WORK_H
 #define TALUS_LAWS_CONTACT_WORK_H
@@ -31,15 +31,15 @@ enum class Cause : int { DAMPING, FRICTION, RESISTANCE };
 template <class Real> using ContactWork = Real[ContactBatch::num_causes];
 
 /// The work, when all stages have run: s.tangential is that of the tangential stage. `friction`,
-/// `twists`, `resists`: as ContactLaw has them; `beyond_contact`: as Law::lasts_beyond_contact of
-/// the normal law. The torques about the centers are -r torque_per_radius and +- twisting_torque.
+/// `twists`, `resists`: as ContactLaw has them; `whole_force`: its whole_force_works(), where
+/// s.normal_force is that of all stages. The torques about the centers are -r torque_per_radius and +- twisting_torque.
 /// Friction has (1 - arm_loss) n x F_t of the former and arm_difference n x F_t of the latter,
 /// resistance the rest.
-template <bool friction, bool twists, bool resists, bool beyond_contact, class Real>
+template <bool friction, bool twists, bool resists, bool whole_force, class Real>
 TALUS_INLINE void find_work(const ContactLanes<Real> &s, double dt, ContactWork<Real> &work)
 {
   const Vector3<Real> velocity = s.velocity + s.velocity_change;
-  const Real lost = beyond_contact ? s.normal_force : s.normal_force - s.elastic;
+  const Real lost = whole_force ? s.normal_force : s.normal_force - s.elastic;
   work[0] = -dt * lost * dot(velocity, s.normal);
   work[1] = work[2] = splat<Real>(0.0);
   if constexpr (!friction) return;

@@ -32,6 +32,11 @@ struct ContactCoefficients {
   double c[size] = {};
 };
 
+/// Of two bodies that may touch: effective radius (length) and volume of those that are particles.
+struct ContactSize {
+  double radius, volume;
+};
+
 /// Indices of the values of one law in ContactBatch::history.
 using HistoryIndices = std::array<int, ContactBatch::history_size>;
 
@@ -83,12 +88,13 @@ struct Law {
                         ///< coefficient is the time step
   bool holds;           ///< rolling: a body at rest is held
   bool delayed;         ///< rolling, twisting: reads delayed_force
+  bool hysteretic;      ///< normal: more work is done on it than it stores
   double exponent;      ///< normal: elastic force ~ overlap^exponent
   bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
   bool cohesive;      ///< normal: adhesion of its own
   bool allows_cohesion;         ///< damping: may follow such a normal law
-  bool lasts_beyond_contact;    ///< normal: a contact ends at the pull-off distance, not at overlap
-                                ///< 0
+  bool lasts_beyond_contact;    ///< normal, cohesion: a contact ends at the pull-off distance,
+                                ///< not at overlap 0
   bool second_order;            ///< tangential: reads the changes of velocities, see second_order.h
   /// Tangential, rolling, twisting: the law that integrators of second order take in its place; nullptr,
   /// or nullptr is returned: there is none. `adhesive`: after a normal law with adhesion of its own.
@@ -120,8 +126,9 @@ struct Law {
   double (*stored)(const ContactLanes<double> &contact, const double *c, const double *history);
   /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
   double (*modulus)(const double *c);
-  /// Normal: how far a contact that has begun lasts beyond zero overlap (length); nullptr if not.
-  double (*pulloff_distance)(const double *c, double effective_radius);
+  /// Normal, cohesion: how far a contact that has begun lasts beyond zero overlap (length); nullptr
+  /// if not.
+  double (*pulloff_distance)(const double *c, const ContactSize &size);
   /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
   StageFunction find_pulloff_distance;
 };

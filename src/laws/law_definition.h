@@ -47,13 +47,20 @@ struct LawBase {
   static constexpr bool is_midpoint = false, synchronized = false;
   static constexpr bool holds = false, delayed = false, like_stock = false;
   static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
-  static constexpr bool lasts_beyond_contact = false, second_order = false;
+  static constexpr bool lasts_beyond_contact = false, second_order = false, hysteretic = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
   /// Tangential, rolling, twisting: what integrators of second order take in its place, nullptr if there
   /// is nothing; `adhesive`: the normal law has adhesion of its own. See second_order_laws.h.
   static constexpr std::nullptr_t order_2 = nullptr;
   static constexpr double exponent = 1.0;
+  /// Normal and cohesion: how far a contact lasts beyond zero overlap (length); only called if
+  /// lasts_beyond_contact.
+  template <class Row>
+  static double pulloff_distance(const Row & /*c*/, const ContactSize & /*size*/)
+  {
+    return 0.0;
+  }
 };
 
 /// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own
@@ -66,12 +73,6 @@ struct NormalLaw : LawBase {
   /// delayed resistance takes them.
   template <class Real> static void reduce(Real /*overlap*/, Real & /*k*/, Real & /*g*/) {}
   template <class Row> static double modulus(const Row & /*c*/) { return 0.0; }
-  /// How far a contact lasts beyond zero overlap (length); only called if lasts_beyond_contact.
-  template <class Row>
-  static double pulloff_distance(const Row & /*c*/, double /*effective_radius*/)
-  {
-    return 0.0;
-  }
 };
 
 /// Finds gn, gt, normal_force and force; see finish_normal_force().
@@ -103,7 +104,9 @@ struct TwistingLaw : LawBase {
   static constexpr Stage stage = Stage::TWISTING;
 };
 
-/// Adds to force: an adhesive force that is constant while the bodies touch, times adhesive_share.
+/// Adds to force: an adhesive force that is constant while the bodies touch, times adhesive_share. Or,
+/// if lasts_beyond_contact, any force and torque_per_radius of bodies that touch or have touched:
+/// overlap is below 0 where they are apart, and the stages before have then found nothing.
 struct CohesionLaw : LawBase {
   static constexpr Stage stage = Stage::COHESION;
   static constexpr const char *label = "adhesion";
@@ -309,6 +312,8 @@ TALUS_INLINE void run_lanes(ContactBatch &b, int k, const typename L::template R
     store(&b.between.adhesive_share[k], s.adhesive_share);
     if constexpr (ends) store(&b.between.uncorrected_force[k], s.uncorrected_force);
   }
+  if constexpr (L::stage == Stage::COHESION && L::lasts_beyond_contact)
+    store_vector(b.torque_per_radius, k, s.torque_per_radius);
   if constexpr (advance)
     for (int n = 0; n < history_size; n++) store(&b.history[in.history_index[n]][k], history[n]);
 }
@@ -376,19 +381,19 @@ double stored_energy(const ContactLanes<double> &s, const double *c, const doubl
   return L::stored(s, row_of<L>(c), history);
 }
 
-template <class L> double pulloff_distance_by(const double *c, double effective_radius)
+template <class L> double pulloff_distance_by(const double *c, const ContactSize &size)
 {
-  return L::pulloff_distance(row_of<L>(c), effective_radius);
+  return L::pulloff_distance(row_of<L>(c), size);
 }
 
-/// Few bodies are apart.
+/// Of normal laws, which ask for the radius alone. Few bodies are apart.
 template <class L>
 void run_pulloff_distance(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   for (int k = begin; k < end; k++) {
     if (b.overlap[k] > 0.0) continue;
     const double *c = in.table[in.uniform ? 0 : b.coefficients[k]].c + in.first_coefficient;
-    b.pulloff_distance[k] = pulloff_distance_by<L>(c, 1.0 / b.inverse_radius[k]);
+    b.pulloff_distance[k] = pulloff_distance_by<L>(c, {1.0 / b.inverse_radius[k], 0.0});
   }
 }
 
@@ -421,6 +426,7 @@ template <class L> constexpr Law make_law()
   law.cohesive = L::cohesive;
   law.allows_cohesion = L::allows_cohesion;
   law.lasts_beyond_contact = L::lasts_beyond_contact;
+  law.hysteretic = L::hysteretic;
   law.second_order = L::second_order;
   law.like_stock = L::like_stock;
   law.order_2 = L::order_2;
@@ -438,12 +444,10 @@ template <class L> constexpr Law make_law()
     law.damping_exponent = L::damping_exponent;
     law.dashpot_exponent = L::dashpot_exponent;
   }
+  if constexpr (L::lasts_beyond_contact) law.pulloff_distance = pulloff_distance_by<L>;
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
-    if constexpr (L::lasts_beyond_contact) {
-      law.pulloff_distance = pulloff_distance_by<L>;
-      law.find_pulloff_distance = run_pulloff_distance<L>;
-    }
+    if constexpr (L::lasts_beyond_contact) law.find_pulloff_distance = run_pulloff_distance<L>;
     law.delay = run_delay<L>;
     law.one_delay = [](ContactLanes<double> &s, const double *, double *, double) {
       find_delayed_force<L>(s);

@@ -72,6 +72,12 @@ std::string reason_of_resistance(const ContactLaw &law, const ContactCoefficient
 std::string reason_against_second_order(const ContactLaw &law, const ContactCoefficients &row)
 {
   const Law &tangential = law.tangential();
+  if (law.normal().hysteretic)
+    return std::string("has the normal law ") + law.normal().name +
+           ", whose stiffness jumps where loading turns: use order 1";
+  if (law.bridges())
+    return std::string("has the adhesion ") + law.cohesion().name +
+           ", a bridge that is made and breaks with a jump: use order 1";
   if (!law.normal().cohesive && damps(law, row) &&
       std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
     return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";

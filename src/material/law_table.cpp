@@ -96,7 +96,7 @@ bool LawTable::second_order() const
 
 bool LawTable::lasts_beyond_contact() const
 {
-  return any([](const ContactLaw &law) { return law.normal().lasts_beyond_contact; });
+  return any([](const ContactLaw &law) { return law.lasts_beyond_contact(); });
 }
 
 double LawTable::pulloff_distance(int row, double radius_i, double radius_j) const

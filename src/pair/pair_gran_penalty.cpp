@@ -73,7 +73,8 @@ void PairGranPenalty::init_style()
   const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty() && system->range().largest_pulloff_distance() > neighbor->skin)
     error->all(FLERR,
-               "Pair style gran/penalty: contacts of jkr last beyond the neighbor lists of LAMMPS, "
+               "Pair style gran/penalty: contacts of jkr or with a liquid bridge last beyond the "
+               "neighbor lists of LAMMPS, "
                "which are used because of {}: use a skin of at least {:g} in the neighbor command",
                lists, rounded_up(system->range().largest_pulloff_distance(), 6));
 }

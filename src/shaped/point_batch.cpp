@@ -16,6 +16,13 @@ std::string PointBatch::refusal(const ContactLaw &law)
   if (law.normal().lasts_beyond_contact)
     return std::string("has the normal law ") + law.normal().name +
            ", which lasts beyond contact: use dmt or another law";
+  if (law.bridges())
+    return std::string("has the adhesion ") + law.cohesion().name +
+           ", a bridge that lasts beyond contact: use 'adhesion constant F'";
+  if (law.normal().hysteretic)
+    return std::string("has the normal law ") + law.normal().name +
+           ", which remembers how deep a contact was, while points of shapes come and go: use "
+           "hooke or another law";
   if (law.history().size > point_history_size)
     return "has laws with " + std::to_string(law.history().size) +
            " values of history, and points of shapes keep " + std::to_string(point_history_size) +

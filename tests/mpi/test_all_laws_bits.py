@@ -19,6 +19,7 @@ DASHPOT, ONESTEP = "tangential dashpot NULL 0.5", "tangential onestep NULL NULL 
 MULTISTEP = "tangential multistep NULL NULL 0.5"
 RESIST = "rolling 0.1 spinning 0.1"
 DELAYED = "rolling 0.1 delayed spinning 0.1 delayed"
+WET, RABINOVICH, LUDING = "adhesion willett 0.5 20", "adhesion rabinovich 0.5 40", "luding 5e3 2e4 5e3 0.05 5.0"
 CONSTANT, DMT, PERKO = "adhesion constant 2.0", "adhesion dmt 5.0", "adhesion perko 8.0"
 
 LAWS = [
@@ -34,10 +35,14 @@ LAWS = [
     f"{HERTZ_M} {MULTISTEP} {DELAYED} {CONSTANT}",
     f"{FLORES_M} {ONESTEP} {RESIST}", f"{FLORES_M} {MULTISTEP}", f"{FLORES_M} {MULTISTEP} {DELAYED} {DMT}",
     COULOMB_M, f"{COULOMB_M} {RESIST} {CONSTANT}",
+    f"{HERTZ_M} {MULTISTEP} {WET} fraction 0.01", f"{HOOKE} {RABINOVICH} volume 5e-3 viscosity 0.1 0.05",
+    f"{HERTZ} tangential mindlin 3e4 1.0 0.5 rolling sds 1e3 5.0 0.1 twisting marshall {RABINOVICH} fraction 0.02",
+    f"{LUDING} {MULTISTEP}", LUDING, f"walton/braun 1e4 3e4 5.0 {MULTISTEP} {DELAYED} {WET} volume 2e-3",
     f"{HOOKE} {MULTISTEP} slider", f"{HERTZ_M} {MULTISTEP} stock", f"{HERTZ_M} {MULTISTEP} midpoint {RESIST}",
     # other laws between unlike types: law 1 1, law 1 2, law 2 2
     (f"{HERTZ_M} {MULTISTEP} {RESIST}", f"{HOOKE} {CONSTANT}", f"{HOOKE_M} {MULTISTEP} {DELAYED}"),
     (COULOMB, f"{FLORES_M} {MULTISTEP}", FLORES),
+    (f"{HERTZ_M} {MULTISTEP} {WET} fraction 0.01", LUDING, f"{HOOKE} {MULTISTEP}"),
 ]
 
 HEAD = "\nclear" + head("si")
@@ -135,7 +140,7 @@ class AllLaws(SceneCase):
             seen.add(tuple(bits(value) for key in ("x", "omegax") for value in frame.column(key).values()))
             turned = sum(value != start[tag].omega[0] for tag, value in frame.column("omegax").items())
             frictionless = all("tangential" not in w and "plaincoulomb" not in w and "rolling" not in w
-                               and "spinning" not in w for w in words_of(law))
+                               and "spinning" not in w and "viscosity" not in w for w in words_of(law))
             if frictionless:
                 self.assertEqual(turned, 0, law)
             else:

@@ -118,13 +118,16 @@ class ElasticImpacts(SceneCase):
             self.assertIsNotNone(self.said(), f"{name}: so little damping takes away less than the time step may add")
 
     def test_laws_of_pair_granular(self):
-        """Friction without a spring is a share of the damping: of none. Contacts of jkr tear apart with a loss."""
+        """Friction without a spring is a share of the damping: of none. Contacts of jkr and bridges tear apart with a loss, and others
+        remember."""
         material = f"{YOUNG!r} 0.0 0.3"
         for words, expected in ((f"hertz/material {material} damping none tangential linear_nohistory 1.0 0.5", True),
                                 (f"hertz/material {material} damping none tangential mindlin NULL 0.0 0.5", False),
                                 (f"hertz/material {material} damping none tangential mindlin 0.0 1.0 0.5", True),
                                 (f"hertz/material {YOUNG!r} 0.99 0.3 damping tsuji", False),
-                                (f"dmt {material} 0.0", True), (f"jkr {material} 0.0", True), (f"jkr {material} 1.0", False)):
+                                (f"dmt {material} 0.0", True), (f"jkr {material} 0.0", True), (f"jkr {material} 1.0", False),
+                                ("walton/braun 1e5 2e5 0.0", False), ("luding 1e5 2e5 0.0 0.1 0.0", False),
+                                (f"hertz {YOUNG!r} 0.0 adhesion willett 1.0 0 fraction 0.01", False)):
             self.impacts(words, 0.199, steps=1)
             self.assertEqual(self.said() is not None, expected, words)
 

@@ -22,12 +22,13 @@ pair_style gran/penalty
 PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
 GOOD = "hertz/material 1e6 0.5 0.3"
 LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, " \
-       "plaincoulomb/material, dmt or jkr"
+       "plaincoulomb/material, dmt, jkr, luding or walton/braun"
 KEYWORDS = "expected tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping"
 TANGENTIAL = "none, dashpot, onestep, multistep, linear_nohistory, linear_history, linear_history_classic, mindlin, " \
              "mindlin/force, mindlin_rescale, mindlin_rescale/force or mindlin_classic"
 DAMPING = "mass_velocity, viscoelastic, none, velocity, tsuji or coeff_restitution"
 TWISTING = "stopping, marshall or sds"
+ADHESIONS = "constant, dmt, perko, willett or rabinovich"
 
 NOT_NEGATIVE, POSITIVE, UNIT = r"\(a number >= 0\)", r"\(a number > 0\)", r"\(a number from 0 to 1\)"
 POISSON = r"\(a number above -1, up to 0.5\)"
@@ -40,12 +41,15 @@ VCHAR = ("characteristic speed vchar", POSITIVE, "1.0", ("0", "-1", "x"))
 KN = ("kn", NOT_NEGATIVE, "1e3", ("-1", "x", "inf"))
 GN = ("gn", NOT_NEGATIVE, "2.0", ("-1", "x"))
 GAMMA = ("gamma", NOT_NEGATIVE, "0.1", ("-0.5", "x"))
+LOADING = (("stiffness k1 of loading", POSITIVE, "1e3", ("0", "x")), ("stiffness k2 of unloading", POSITIVE, "5e3", ("0", "inf")))
 MU = ("mu", NOT_NEGATIVE, "0.5", ("-0.5", "x"))
 ARGUMENTS = {
     "hooke": (KN, GN), "hertz": (KN, GN), "flores": (KN, GN), "plaincoulomb": (KN, GN, MU),
     "hooke/material": (E, RESTITUTION, NU, VCHAR), "hertz/material": (E, RESTITUTION, NU),
     "flores/material": (E, RESTITUTION, NU, VCHAR), "plaincoulomb/material": (E, RESTITUTION, NU, MU),
     "dmt": (E, GN, NU, GAMMA), "jkr": (E, GN, NU, GAMMA),
+    "luding": (*LOADING, ("adhesive stiffness kc", NOT_NEGATIVE, "1e3", ("-1", "x")), ("plasticity depth phi", POSITIVE, "0.05", ("0",)), GN),
+    "walton/braun": (*LOADING, GN),
 }
 KT = ("kt", NOT_NEGATIVE, "1e3", ("-1", "x"))
 GT = ("gt", NOT_NEGATIVE, "2.0", ("-1", "x"))
@@ -126,15 +130,35 @@ def law_cases():
     both = "rolling and spinning must both be delayed, or both not"
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 delayed spinning 0.1", both, "0.1"
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.1 delayed", both, "delayed"
-    yield f"{GOOD} adhesion", "missing adhesion: constant, dmt or perko", "adhesion"
+    yield f"{GOOD} adhesion", f"missing adhesion: {ADHESIONS}", "adhesion"
     yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius or area", "volume"
-    yield (f"{GOOD} adhesion jkr 1.0", "unknown adhesion 'jkr', expected constant, dmt or perko", "jkr")
-    yield f"{GOOD} adhesion 1.0", "unknown adhesion '1.0', expected constant, dmt or perko", "1.0"
+    yield (f"{GOOD} adhesion jkr 1.0", f"unknown adhesion 'jkr', expected {ADHESIONS}", "jkr")
+    yield f"{GOOD} adhesion 1.0", f"unknown adhesion '1.0', expected {ADHESIONS}", "1.0"
     yield from granular_cases()
+    yield from wet_and_plastic_cases()
     yield f"{GOOD} delayed", None, "delayed"
     yield f"{GOOD} rolling 0.1 delayed delayed", None, "delayed"
     yield f"{GOOD} limit_damping yes", None, "yes"
     yield f"{GOOD} foo", None, "foo"
+
+
+def wet_and_plastic_cases():
+    wet = f"{GOOD} adhesion willett"
+    yield wet, "missing surface tension gamma", "willett"
+    yield f"{wet} -0.1 20 volume 1e-3", "expected surface tension gamma", "-0.1"
+    yield f"{wet} 0.1 95 volume 1e-3", "expected contact angle in degrees", "95"
+    yield f"{wet} 0.1 20 1e-3", "unknown volume of the bridge '1e-3', expected volume or fraction", "1e-3"
+    yield f"{wet} 0.1 20 volume 0", "expected volume of the bridge", "0"
+    yield f"{wet} 0.1 20 fraction x", "expected fraction of the particles' volume", "x"
+    yield f"{wet} 0.1 20 fraction 0.01 viscosity 1.0", "missing least gap over the effective radius", "1.0"
+    yield f"{wet} 0.1 20 fraction 0.01 viscosity -1.0 0.1", "expected viscosity eta", "-1.0"
+    yield f"{wet} 0.1 20 fraction 0.01 viscosity 1.0 0", "expected least gap over the effective radius", "0"
+    yield "luding 1e3 1e3 0 0.1 2.0", "k2 of unloading must be larger than k1", "1e3"
+    yield "luding 1e3 5e3 -1 0.1 2.0", "expected adhesive stiffness kc", "-1"
+    yield "luding 1e3 5e3 0 0 2.0", "expected plasticity depth phi", "0"
+    yield "luding 1e3 5e3 0 0.1 2.0 adhesion perko 1.0", "'luding' has adhesion of its own", "adhesion"
+    yield "luding 1e3 5e3 0 0.1 2.0 limit_damping", "cannot limit damping with a cohesive normal law, luding", "limit_damping"
+    yield "walton/braun 1e3 5e2 2.0", "k2 of unloading must be larger than k1", "5e2"
 
 
 def granular_cases():
@@ -252,6 +276,9 @@ ACCEPTED = [
     "flores/material 1e6 0 0.3 1e-9", "hooke 0 0", "hooke 0.0 0.0 tangential dashpot 1.0 0.5",
     "hertz/material 1e6 0.5 0.3 tangential multistep 1e6 0.5 0.5",
     "hooke/material 1e6 0.5 0.3 1.0 tangential multistep NULL 0.5 0.5",
+    "luding 1e3 5e3 2e3 0.05 2.0 tangential multistep NULL NULL 0.5", "walton/braun 1e3 5e3 2.0 tangential multistep 1e3 NULL 0.5",
+    "luding 1e3 5e3 2e3 0.05 2.0 damping velocity", "walton/braun 1e3 5e3 2.0 adhesion constant 1.0",
+    f"{GOOD} adhesion willett 0.1 20 volume 1e-3", f"{GOOD} adhesion rabinovich 0.1 20 fraction 0.01 viscosity 0.1 0.01",
     "plaincoulomb 1e3 2.0 0.0 rolling 0.1 delayed spinning 0.1 delayed adhesion perko 1.0 vmin 0 0 0 limit_damping",
     f"{GOOD} tangential multistep NULL NULL 0.5 spring rolling 0.1",
     "limit_damping".join(["hooke 1e3 2.0 ", " spinning 0.1 tangential none"]),

@@ -123,7 +123,7 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
     return bits | just_ended(first, in_body,
                              task->history.touched(first / width) & of_this_thread & ~bits);
   }
-  if (!law.normal().lasts_beyond_contact) return task->shape.touches_eight(in_body, high, contacts);
+  if (!law.lasts_beyond_contact()) return task->shape.touches_eight(in_body, high, contacts);
   double reach[width] = {};
   widened = in_body;
   for (int k = 0; k < high; k++) {
@@ -244,7 +244,7 @@ void BodyBatch::look_at_parts(std::size_t first, int k, const EightSpheres &in_b
   if (task->laws.law_index(task->row_of(c)) != law_index) return;
   const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
   const double r = spheres.radius[k];
-  const double reach = law.normal().lasts_beyond_contact ? task->pulloff_distance_of(c, r) : 0.0;
+  const double reach = law.lasts_beyond_contact() ? task->pulloff_distance_of(c, r) : 0.0;
   bool may_touch;
   const NearParts near = task->candidates.parts_near(task->frame, c, x, r + reach, may_touch);
   int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;

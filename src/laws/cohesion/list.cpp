@@ -3,6 +3,8 @@
 // The laws of stage cohesion.
 
 #include "laws/cohesion/adhesion.h"
+#include "laws/cohesion/rabinovich.h"
+#include "laws/cohesion/willett.h"
 #include "laws/law_definition.h"
 #include "laws/none.h"
 #include "laws/stage_lists.h"
@@ -16,6 +18,8 @@ std::vector<const Law *> cohesion_laws()
       &law<Adhesion<ConstantModel>>,
       &law<Adhesion<DmtModel>>,
       &law<Adhesion<PerkoModel>>,
+      &law<LiquidBridge<WillettModel>>,
+      &law<LiquidBridge<RabinovichModel>>,
   };
 }
 

@@ -11,8 +11,10 @@
 #include "laws/normal/hooke.h"
 #include "laws/normal/hooke_material.h"
 #include "laws/normal/jkr.h"
+#include "laws/normal/luding.h"
 #include "laws/normal/plaincoulomb.h"
 #include "laws/normal/plaincoulomb_material.h"
+#include "laws/normal/walton_braun.h"
 #include "laws/stage_lists.h"
 
 namespace Talus {
@@ -22,7 +24,7 @@ std::vector<const Law *> normal_laws()
   return {
       &law<Hooke>,         &law<Hertz>,         &law<Flores>,         &law<PlainCoulomb>,
       &law<HookeMaterial>, &law<HertzMaterial>, &law<FloresMaterial>, &law<PlainCoulombMaterial>,
-      &law<Dmt>,           &law<Jkr>,
+      &law<Dmt>,           &law<Jkr>,           &law<Luding>,         &law<WaltonBraun>,
   };
 }
 
