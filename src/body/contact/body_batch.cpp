@@ -14,10 +14,6 @@ constexpr int width = EightSpheres::width;
 constexpr std::size_t ahead = 64;    // candidates whose positions are prefetched
 static_assert(width == lanes && ahead + width <= BodyTask::spare);
 
-// the same where each candidate has parts to be looked at, and the parts nearer to their use
-constexpr std::size_t position_ahead = 24, list_ahead = 12, parts_ahead = 6;
-static_assert(position_ahead <= BodyTask::spare);
-
 Vector3<Vec8> center_of(const EightSpheres &spheres)
 {
   const auto &x = spheres.center;
@@ -58,7 +54,7 @@ void BodyBatch::compute(const BodyTask &new_task, std::size_t begin, std::size_t
       const int low = static_cast<int>(begin > c ? begin - c : 0),
                 high = static_cast<int>(std::min<std::size_t>(end_of_range - c, width));
       if (several)
-        look_at_eight_by_parts(c, low, high, end_of_range);
+        look_at_eight_by_parts(c, low, high);
       else
         look_at_eight(c, low, high);
     }
@@ -124,20 +120,28 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
                              task->history.touched(first / width) & of_this_thread & ~bits);
   }
   if (!law.lasts_beyond_contact()) return task->shape.touches_eight(in_body, high, contacts);
-  double reach[width] = {};
-  widened = in_body;
-  for (int k = 0; k < high; k++) {
-    reach[k] = task->pulloff_distance_of(first + k, in_body.radius[k]);
-    widened.radius[k] += reach[k];
-  }
-  unsigned bits = task->shape.touches_eight(widened, high, contacts);
+  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, high);
+  unsigned bits = task->shape.touches_eight(reaching, high, contacts);
   const unsigned begun = task->history.touched(first / width);
   for (unsigned rest = bits; rest; rest &= rest - 1U) {
     const int k = __builtin_ctz(rest);
-    contacts.overlap[k] -= reach[k];
+    contacts.overlap[k] -= pulloff[k];
     if (!(contacts.overlap[k] > 0.0)) bits &= begun | ~(1U << k);
   }
   return bits;
+}
+
+const EightSpheres &BodyBatch::as_far_as_contacts_last(std::size_t first,
+                                                       const EightSpheres &in_body, int high)
+{
+  std::fill(pulloff, pulloff + width, 0.0);
+  if (!law.lasts_beyond_contact()) return in_body;
+  widened = in_body;
+  for (int k = 0; k < high; k++) {
+    pulloff[k] = task->pulloff_distance_of(first + k, in_body.radius[k]);
+    widened.radius[k] += pulloff[k];
+  }
+  return widened;
 }
 
 /* Of those contacts that were there, `bits`, those that last for the step in which they end: looked
@@ -171,6 +175,12 @@ void BodyBatch::prefetch_contacts(std::size_t first, unsigned bits) const
 
 void BodyBatch::take(std::size_t first, unsigned bits)
 {
+  put_side_by_side(first, bits);
+  if (filled > ContactBatch::width - width) flush();    // no room for eight more
+}
+
+void BodyBatch::put_side_by_side(std::size_t first, unsigned bits)
+{
   for (int d = 0; d < 3; d++) {
     pack_lanes(&place[d][filled], spheres.center[d], bits);
     pack_lanes(&batch.normal[d][filled], contacts.normal[d], bits);
@@ -180,7 +190,6 @@ void BodyBatch::take(std::size_t first, unsigned bits)
   if (described) take_surface(bits);
   filled += store_places(&candidate_of_lane[filled], static_cast<std::uint32_t>(first), bits);
   prefetch_contacts(first, bits);
-  if (filled > ContactBatch::width - width) flush();    // no room for eight more
 }
 
 void BodyBatch::take_surface(unsigned bits)
@@ -189,116 +198,6 @@ void BodyBatch::take_surface(unsigned bits)
   pack_lanes(&curvature[filled], contacts.curvature, bits);
   for (int lane = filled; bits; bits &= bits - 1U, lane++)
     part_of_lane[lane] = contacts.part[__builtin_ctz(bits)];
-}
-
-namespace {
-
-/// Of a sphere, by candidate, place in the frame of the body and radius.
-class EndsOfContacts : public BodyHistory::Ends {
- public:
-  EndsOfContacts(const BodyTask &task, std::size_t c, const Vector3<double> &x, double r) :
-      task(task), c(c), x(x), r(r)
-  {
-  }
-  bool lasts(const Record &history) const override
-  {
-    return has_just_ended(history.c[3], task.step.advance);
-  }
-  int look_further(SurfaceContact *found) const override
-  {
-    constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
-    bool may_touch;
-    const NearParts near =
-        task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
-    const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
-    for (int k = 0; k < count; k++) found[k].overlap -= further * r;
-    return std::max(count, 0);
-  }
-
- private:
-  const BodyTask &task;
-  std::size_t c;
-  const Vector3<double> &x;
-  double r;
-};
-
-}    // namespace
-
-/* What cannot touch is not asked for, unless a contact may end. */
-
-void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high, std::size_t last)
-{
-  load_spheres(task->index + first, low, high);
-  const EightSpheres &in_body = spheres_in_body();
-  const unsigned near = task->shape.may_touch_eight(in_body);
-  for (int k = low; k < high; k++) {
-    prefetch_parts(first + k, last);
-    if ((near >> k & 1U) || (task->with_history && task->history.count(first + k) > 0))
-      look_at_parts(first, k, in_body);
-  }
-}
-
-void BodyBatch::look_at_parts(std::size_t first, int k, const EightSpheres &in_body)
-{
-  const std::size_t c = first + k;
-  if (task->laws.law_index(task->row_of(c)) != law_index) return;
-  const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
-  const double r = spheres.radius[k];
-  const double reach = law.lasts_beyond_contact() ? task->pulloff_distance_of(c, r) : 0.0;
-  bool may_touch;
-  const NearParts near = task->candidates.parts_near(task->frame, c, x, r + reach, may_touch);
-  int count = may_touch ? task->shape.find_contacts(x, r + reach, near, found) : 0;
-  if (count < 0) return;
-  for (int n = 0; n < count; n++) found[n].overlap -= reach;
-  if (task->with_history) {
-    const EndsOfContacts ends(*task, c, x, r);
-    count = task->history.continue_found(c, found, count, slots_of_found, before,
-                                         law.tangential().second_order ? &ends : nullptr);
-  }
-  if (count) task->view.prefetch_for_contact(task->index[c]);
-  for (int n = 0; n < count; n++) append(c, k, n);
-}
-
-/* Candidates stand far from each other in memory: what one needs is prefetched a while before.
-   First its position, then the list of parts, then those that it probably touches. */
-
-void BodyBatch::prefetch_parts(std::size_t c, std::size_t last) const
-{
-  const ParticleState &view = task->view;
-  view.prefetch_position(task->index[c + position_ahead]);
-  if (c + list_ahead >= last || !task->candidates.have_parts()) return;
-  task->candidates.prefetch_list(c + list_ahead, view.radius_at(task->index[c + list_ahead]));
-  task->candidates.prefetch_parts(c + parts_ahead, view.radius_at(task->index[c + parts_ahead]),
-                                  task->shape);
-}
-
-/* Contact n of candidate c, the sphere in lane k. */
-
-void BodyBatch::append(std::size_t c, int k, int n)
-{
-  const SurfaceContact &contact = found[n];
-  const double normal[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
-  for (int d = 0; d < 3; d++) {
-    place[d][filled] = spheres.center[d][k];
-    batch.normal[d][filled] = normal[d];
-  }
-  radius[filled] = spheres.radius[k];
-  batch.overlap[filled] = contact.overlap;
-  candidate_of_lane[filled] = static_cast<std::uint32_t>(c);
-  slot_of_lane[filled] = slots_of_found[n];
-  part_of_lane[filled] = contact.part;
-  if (described) {
-    const double velocity[3] = {contact.velocity.x, contact.velocity.y, contact.velocity.z};
-    for (int d = 0; d < 3; d++) surface_velocity[d][filled] = velocity[d];
-    curvature[filled] = contact.curvature;
-  }
-  if (needs_normal_changes()) {
-    const MovingVertices *const vertices = task->frame.vertices;
-    const bool turns = vertices && task->step.advance;
-    set_normal_change(filled, contact.normal,
-                      turns ? vertices->turn(contact.part)(before[n]) : before[n]);
-  }
-  if (++filled == ContactBatch::width) flush();
 }
 
 /* Lanes behind the last contact repeat it with the geometry of older ones: computed, not used. */

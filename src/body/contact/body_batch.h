@@ -3,9 +3,9 @@
 // Contact forces between particles and one large body: one batch for each thread, eight contacts at
 // a time. Everything is computed in the frame of the body, in which the body is at rest and
 // histories rotate with it; forces are rotated back. body_batch.cpp finds the contacts and runs the
-// laws, body_batch_lanes.cpp gathers the particle data that laws read and scatters the results,
-// body_batch_outputs.cpp keeps what outputs and warnings ask for, body_batch_vertices.cpp does what
-// only meshes whose vertices move need.
+// laws, body_batch_parts.cpp finds those with shapes of several contacts, body_batch_lanes.cpp gathers
+// the particle data that laws read and scatters the results, body_batch_outputs.cpp keeps what outputs
+// and warnings ask for, body_batch_vertices.cpp does what only meshes whose vertices move need.
 
 #ifndef TALUS_BODY_CONTACT_BODY_BATCH_H
 #define TALUS_BODY_CONTACT_BODY_BATCH_H
@@ -99,11 +99,18 @@ class BodyBatch {
   unsigned touching_eight(std::size_t first, int low, int high);
   unsigned just_ended(std::size_t first, const EightSpheres &in_body, unsigned bits);
   void take(std::size_t first, unsigned bits);
+  void put_side_by_side(std::size_t first, unsigned bits);
   void prefetch_contacts(std::size_t first, unsigned bits) const;
   void take_surface(unsigned bits);
-  void look_at_eight_by_parts(std::size_t first, int low, int high, std::size_t last);
-  void look_at_parts(std::size_t first, int k, const EightSpheres &in_body);
-  void prefetch_parts(std::size_t candidate, std::size_t last) const;
+  void look_at_eight_by_parts(std::size_t first, int low, int high);
+  const EightSpheres &as_far_as_contacts_last(std::size_t first, const EightSpheres &in_body,
+                                              int high);
+  bool has_begun(std::size_t c) const { return task->with_history && task->history.count(c) > 0; }
+  void take_told(std::size_t first, const EightSpheres &in_body, unsigned bits, unsigned touching);
+  void take_eight(std::size_t first, unsigned bits);
+  int find_by_parts(std::size_t c, const EightSpheres &reaching, int k);
+  void take_found(std::size_t c, const EightSpheres &in_body, int k, int count);
+  void prefetch_parts(std::size_t first) const;
   void append(std::size_t candidate, int k, int n);
   void flush();
   void notice_deeper();
@@ -177,6 +184,7 @@ class BodyBatch {
   DeepestInBody deepest_so_far;
   // in space, in the frame of a body that moves, and with radii as far as contacts last
   EightSpheres spheres{}, seen{}, widened{};
+  alignas(64) double pulloff[EightSpheres::width] = {};    // how much further than they are
   EightContacts contacts{};
   // of one sphere with several contacts: these, the slot of each, and the normal that it had
   SurfaceContact found[LargeBodyShape::max_parts];

@@ -3,9 +3,11 @@
 #include "body/contact/body_candidates.h"
 
 #include "base/in_parallel.h"
+#include "base/lanes.h"
 #include "body/shape/moving_vertices.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace Talus {
@@ -16,6 +18,7 @@ namespace {
 constexpr double free_way = 0.5;
 
 constexpr double near = 1.01;    // of the radius: parts within it are probably touched
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// It may go somewhere until particles are listed again.
 bool goes(const BodyFrame &frame)
@@ -46,9 +49,25 @@ struct BodyCandidates::Search {
   {
     return frame.moves ? std::min(distance, extent) + reach : 0.0;
   }
+  void find_with_parts(int begin, int end, Found &found) const;
   /// visit(i, place in the frame of the body, reach, whether the surface may be nearer than that) for
   /// the particles of the group among those from `begin` to `end`.
   template <class Visit> void each(int begin, int end, Visit visit) const;
+};
+
+/// By one thread, of a range of the particles.
+struct BodyCandidates::Found {
+  struct Sphere {
+    int particle;
+    Vector3<double> at;
+    double radius, nearest, another;
+    FlatPlace flat;
+    std::size_t num_parts;
+  };
+  std::vector<Sphere> spheres;
+  std::vector<NearPart> parts;    // of all of them
+  std::size_t most_contacts = 0;
+  double farthest = 0.0;
 };
 
 template <class Visit> void BodyCandidates::Search::each(int begin, int end, Visit visit) const
@@ -92,10 +111,11 @@ void BodyCandidates::list(const LargeBodyShape &shape, const BodyFrame &frame,
   const double extent =
       frame.moves ? (1.0 + 1.0e-9) * shape.extent_from(frame.origin) : 0.0;    // rounding
   const Search search{shape, frame, view, mask, group, to_keep, margin, extent};
+  if (!shape.thread_safe()) threads = 1;
   if (shape.most_contacts() == 1)
-    list_near(search, shape.thread_safe() ? threads : 1);
+    list_near(search, threads);
   else
-    list_with_parts(search);
+    list_with_parts(search, threads);
 }
 
 /* By several threads, each for a range of the particles. */
@@ -121,23 +141,62 @@ void BodyCandidates::list_near(const Search &search, int threads)
   }
 }
 
-void BodyCandidates::list_with_parts(const Search &search)
+void BodyCandidates::list_with_parts(const Search &search, int threads)
 {
-  const std::size_t most = search.shape.most_contacts();
-  search.each(0, search.view.owned(),
-              [&](int i, const Vector3<double> &x, double reach, bool may_touch) {
-                const double distance = search.distance(x);
-                listed_reach = std::max(listed_reach, search.farthest(distance, reach));
-                if (search.frame.moves && distance >= search.extent + reach) may_touch = false;
-                if (!(may_touch && search.shape.is_near(x, reach, parts)) && !search.keeps(i))
-                  return;
-                const std::size_t num_parts = parts.size() - parts_begin.back();
-                listed.push_back({x, num_parts ? parts[parts_begin.back()].distance : 0.0});
-                most_contacts.push_back(
-                    static_cast<std::uint8_t>(num_parts ? std::min(num_parts, most) : most));
-                parts_begin.push_back(parts.size());
-                particles.push_back(i);
-              });
+  std::vector<Found> found(threads);
+  in_ranges(search.view.owned(), threads, [&](int t, int begin, int end) {
+    Found of_thread;
+    search.find_with_parts(begin, end, of_thread);
+    found[t] = std::move(of_thread);
+  });
+  for (const Found &of_thread : found) add(of_thread);
+}
+
+void BodyCandidates::Search::find_with_parts(int begin, int end, Found &found) const
+{
+  found.most_contacts = shape.most_contacts();
+  each(begin, end, [&](int i, const Vector3<double> &x, double reach, bool may_touch) {
+    const double away = distance(x);
+    found.farthest = std::max(found.farthest, farthest(away, reach));
+    if (frame.moves && away >= extent + reach) may_touch = false;
+    const std::size_t before = found.parts.size();
+    if (!(may_touch && shape.is_near(x, reach, found.parts)) && !keeps(i)) return;
+    Found::Sphere sphere{i, x, reach - margin, 0.0, infinity, {}, found.parts.size() - before};
+    if (sphere.num_parts) {
+      const NearPart &first = found.parts[before];
+      const auto other =
+          std::find_if(found.parts.begin() + static_cast<std::ptrdiff_t>(before), found.parts.end(),
+                       [&](const NearPart &part) { return part.group != first.group; });
+      sphere.nearest = first.distance;
+      if (other != found.parts.end()) sphere.another = other->distance;
+      sphere.flat = shape.flat_place(x, reach, first.part);
+    }
+    found.spheres.push_back(sphere);
+  });
+}
+
+void BodyCandidates::add(const Found &found)
+{
+  listed_reach = std::max(listed_reach, found.farthest);
+  parts.insert(parts.end(), found.parts.begin(), found.parts.end());
+  for (const Found::Sphere &sphere : found.spheres) {
+    const int k = static_cast<int>(particles.size() % lanes);
+    if (k == 0) listed.push_back({});
+    Eight &eight = listed.back();
+    const double at[3] = {sphere.at.x, sphere.at.y, sphere.at.z};
+    for (int d = 0; d < 3; d++) eight.at[d][k] = at[d];
+    eight.nearest[k] = sphere.nearest;
+    eight.another[k] = sphere.another;
+    eight.flat_way[k] = sphere.flat.way;
+    eight.flat.set(k, sphere.flat);
+    const double probable = near * sphere.radius;
+    const bool is_alone = sphere.flat.way > 0.0 && sphere.another >= probable;
+    if (sphere.num_parts && sphere.nearest < probable && !is_alone) eight.with_parts |= 1U << k;
+    particles.push_back(sphere.particle);
+    const std::size_t room = sphere.num_parts ? sphere.num_parts : found.most_contacts;
+    most_contacts.push_back(static_cast<std::uint8_t>(std::min(room, found.most_contacts)));
+    parts_begin.push_back(parts_begin.back() + sphere.num_parts);
+  }
 }
 
 bool BodyCandidates::sort_by_slot(const int *slot_of_atom)
@@ -154,13 +213,19 @@ bool BodyCandidates::are_stale(const BodyFrame &frame, double skin) const
   return frame.moves && largest_displacement(listed_frame, frame, listed_reach) > free_way * skin;
 }
 
+/* A little more than the way that both went: rounding must not hide a part. */
+
+template <class Real> Real BodyCandidates::reach_of(Real radius, Real way)
+{
+  return radius + splat<Real>(1.0 + 1.0e-9) * way + splat<Real>(1.0e-9) * radius;
+}
+
 NearParts BodyCandidates::parts_near(const BodyFrame &frame, std::size_t c,
                                      const Vector3<double> &x, double radius, bool &may_touch) const
 {
-  const double way = length(x - listed[c].at) + (frame.vertices ? frame.vertices->way() : 0.0);
-  // a little more than the way that both went: rounding must not hide a part
-  const double reach = radius + (1.0 + 1.0e-9) * way + 1.0e-9 * radius;
-  may_touch = listed[c].nearest < reach;
+  const double way = length(x - listed_at(c)) + (frame.vertices ? frame.vertices->way() : 0.0);
+  const double reach = reach_of(radius, way);
+  may_touch = listed[c / lanes].nearest[c % lanes] < reach;
   const NearPart *const begin = parts.data() + parts_begin[c];
   const NearPart *const last = parts.data() + parts_begin[c + 1];
   const NearPart *end = begin;
@@ -168,14 +233,31 @@ NearParts BodyCandidates::parts_near(const BodyFrame &frame, std::size_t c,
   return {begin, end};
 }
 
-void BodyCandidates::prefetch_list(std::size_t c, double radius) const
+unsigned BodyCandidates::touch_flat(const LargeBodyShape &shape, const BodyFrame &frame,
+                                    std::size_t block, const EightSpheres &spheres,
+                                    EightContacts &contacts, unsigned &told) const
 {
-  if (listed[c].nearest < near * radius) __builtin_prefetch(parts.data() + parts_begin[c]);
+  const Eight &eight = listed[block];
+  const auto vector_of = [](const auto &v) {
+    return Vector3<Vec8>{load8(v[0]), load8(v[1]), load8(v[2])};
+  };
+  const Vector3<Vec8> gone = vector_of(spheres.center) - vector_of(eight.at);
+  const Vec8 way =
+      square_root(dot(gone, gone)) + splat<Vec8>(frame.vertices ? frame.vertices->way() : 0.0);
+  const Vec8 reach = reach_of(load8(spheres.radius), way);
+  const unsigned near = less_bits(load8(eight.nearest), reach);
+  const unsigned flat =
+      less_bits(way, load8(eight.flat_way)) & ~less_bits(load8(eight.another), reach);
+  told = ~near;
+  if (!(near & flat)) return 0;
+  unsigned told_by_shape;
+  const unsigned touching = shape.touches_flat(spheres, eight.flat, contacts, told_by_shape);
+  told |= flat & told_by_shape;
+  return touching & near & flat;
 }
 
 void BodyCandidates::prefetch_parts(std::size_t c, double radius, const LargeBodyShape &shape) const
 {
-  if (listed[c].nearest >= near * radius) return;
   for (std::size_t p = parts_begin[c]; p < parts_begin[c + 1]; p++) {
     if (parts[p].distance > near * radius) break;
     shape.prefetch(parts[p].part);

@@ -6,6 +6,7 @@
 #ifndef TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 #define TALUS_BODY_CONTACT_BODY_CANDIDATES_H
 
+#include "base/aligned_vector.h"
 #include "base/linear_algebra.h"
 #include "body/motion/body_state.h"
 #include "body/shape/large_body_shape.h"
@@ -21,7 +22,7 @@ class BodyCandidates {
   /// Lists the particles (mask & group) that may touch the body while no particle moves further
   /// than `skin`, and the body not too far; contacts that have begun last until there is a gap of
   /// `beyond`. And those of `to_keep`, ascending local indices. `threads` are used for shapes that are
-  /// thread_safe() and touch at one point at most.
+  /// thread_safe().
   void list(const LargeBodyShape &shape, const BodyFrame &frame, const ParticleState &view,
             const int *mask, int group, double skin, double beyond, const std::vector<int> &to_keep,
             int threads);
@@ -48,7 +49,12 @@ class BodyCandidates {
 
   /// Where candidate c was when it was listed, in the frame of the body; of shapes with several
   /// contacts.
-  const Vector3<double> &listed_at(std::size_t c) const { return listed[c].at; }
+  Vector3<double> listed_at(std::size_t c) const
+  {
+    const Eight &eight = listed[c / EightSpheres::width];
+    const std::size_t k = c % EightSpheres::width;
+    return {eight.at[0][k], eight.at[1][k], eight.at[2][k]};
+  }
 
   /// Sorts candidates by slot, so that a step goes through the records from their beginning to
   /// their end; returns whether this changed anything. Only without parts.
@@ -59,29 +65,46 @@ class BodyCandidates {
   NearParts parts_near(const BodyFrame &frame, std::size_t c, const Vector3<double> &x,
                        double radius, bool &may_touch) const;
 
-  bool have_parts() const { return !parts.empty(); }
+  /// Of the candidates 8 block ... 8 block + 7, which are these spheres now (frame of the body), the bits
+  /// of those that touch one part, whose contacts are filled in; of shapes with several contacts. `told`
+  /// receives the bits of those of which this is all: parts_near() need not be asked.
+  unsigned touch_flat(const LargeBodyShape &shape, const BodyFrame &frame, std::size_t block,
+                      const EightSpheres &spheres, EightContacts &contacts, unsigned &told) const;
+
+  /// Bits of those of a block for which parts_near() will be asked; 0 beyond the end.
+  unsigned with_parts(std::size_t block) const
+  {
+    return block < listed.size() ? listed[block].with_parts : 0;
+  }
   /// Prefetches the list of parts of a candidate, and the parts that it probably touches.
-  void prefetch_list(std::size_t c, double radius) const;
+  void prefetch_list(std::size_t c) const { __builtin_prefetch(parts.data() + parts_begin[c]); }
   void prefetch_parts(std::size_t c, double radius, const LargeBodyShape &shape) const;
 
   double memory_usage() const;
 
  private:
   struct Search;
+  struct Found;
   void clear();
   void list_near(const Search &search, int threads);
-  void list_with_parts(const Search &search);
+  void list_with_parts(const Search &search, int threads);
+  void add(const Found &found);
+  template <class Real> static Real reach_of(Real radius, Real way);
 
   std::vector<int> particles;
   BodyFrame listed_frame;
   double listed_reach = 0.0;    // see reach()
 
   // by candidate, only of shapes with several contacts
-  struct Listed {
-    Vector3<double> at;    // frame of the body
-    double nearest;        // distance of the nearest of its parts, 0 without parts
+  struct alignas(64) Eight {
+    double at[3][EightSpheres::width];      // frame of the body
+    double nearest[EightSpheres::width];    // distance of the nearest of its parts, 0 without parts
+    double another[EightSpheres::width];    // of the nearest one of another group than that
+    double flat_way[EightSpheres::width];    // see FlatPlace
+    EightFlatPlaces flat;                    // of the nearest part
+    unsigned with_parts;                     // bits of those that are near others as well
   };
-  std::vector<Listed> listed;
+  AlignedVector<Eight> listed;
   std::vector<std::uint8_t> most_contacts;
   std::vector<std::size_t> parts_begin;    // and one more
   std::vector<NearPart> parts;

@@ -169,7 +169,6 @@ struct BodyHistory::Known {
   /// Of those that do not go on yet, among those of `may`: the one with the nearest normal, or -1.
   int nearest(const Vector3<double> &normal, unsigned may = ~0U) const
   {
-    constexpr double least_cosine = 0.8;    // 37 degrees; more than facets of a smooth patch differ
     int best = -1;
     double largest = least_cosine;
     for (int k = 0; k < count; k++) {

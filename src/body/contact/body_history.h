@@ -122,9 +122,27 @@ class BodyHistory : public ContactMemory::Holder {
       continue_parts(candidate, found, count, slots);
       return count;
     }
-    const int left = continue_contacts(candidate, found, count, before, ends);
+    const int left = goes_on(candidate, found, count, before)
+                         ? count
+                         : continue_contacts(candidate, found, count, before, ends);
     for (int k = 0; k < left; k++) slots[k] = first[candidate] + k;
     return left;
+  }
+  /// A contact continues another one if its normal has turned by less (37 degrees), which is more than
+  /// facets of a smooth patch differ.
+  static constexpr double least_cosine = 0.8;
+  /// Whether a candidate has one contact and had that before, or none and had none, as most; this is all
+  /// that continue_contacts() would find and do.
+  bool goes_on(std::size_t candidate, const SurfaceContact *found, int count,
+               Vector3<double> *before)
+  {
+    if (counts[candidate] != count || count > 1) return false;
+    if (count == 0) return true;
+    Vector3<double> &normal = normals[first[candidate]];
+    if (!(found->overlap > 0.0 && dot(normal, found->normal) > least_cosine)) return false;
+    if (before) *before = normal;
+    normal = found->normal;
+    return true;
   }
   /// By their normals: slot k of the candidate is that of found[k]. A contact continues that with the nearest normal, in the frame of the body: from one step to the
   /// next it turns by far less than the angle between two contacts. Contacts without overlap that

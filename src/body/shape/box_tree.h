@@ -1,15 +1,19 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// A tree of boxes around things, to find those near a point, or near each other. It lives in the frame of
-// its body: however the body moves, the tree stays as it is.
+// A tree of boxes around things, to find those near a point, or near each other. Each node has up to eight
+// children, whose boxes are looked at side by side. It lives in the frame of its body: however the body moves,
+// the tree stays as it is.
 
 #ifndef TALUS_BODY_SHAPE_BOX_TREE_H
 #define TALUS_BODY_SHAPE_BOX_TREE_H
 
+#include "base/aligned_vector.h"
 #include "base/linear_algebra.h"
+#include "base/simd.h"
 
-#include <algorithm>
-#include <utility>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace Talus {
@@ -24,38 +28,57 @@ class BoxTree {
   template <class Visitor>
   void visit_near(const Vector3<double> &point, double reach, Visitor visit) const
   {
-    int stack[max_depth], depth = 0;
+    visit_leaves_near(point, reach, [&](int leaf, int count) {
+      for (int k = 0; k < count; k++) visit(thing(leaf, k));
+    });
+  }
+
+  /// The same for visit(leaf, number of its things), which are thing(leaf, 0) and so on.
+  template <class Visitor>
+  void visit_leaves_near(const Vector3<double> &point, double reach, Visitor visit) const
+  {
+    const Place place(point, reach);
+    int stack[max_stack], depth = 0;
     stack[depth++] = 0;
     while (depth) {
       const Node &node = nodes[stack[--depth]];
-      if (square_distance(point, node) >= reach * reach) continue;
-      for (int k = 0; k < node.count; k++) visit(things[node.first + k]);
-      if (node.count) continue;
-      stack[depth++] = node.first + 1;
-      stack[depth++] = node.first;
+      for (unsigned bits = near_bits(node, place); bits; bits &= bits - 1U) {
+        const int k = __builtin_ctz(bits);
+        if (node.count[k])
+          visit(node.first[k], node.count[k]);
+        else
+          stack[depth++] = node.first[k];
+      }
     }
   }
+
+  /// A leaf has up to so many things.
+  static constexpr int leaf_size = 8;
+  int num_leaves() const { return static_cast<int>(things.size()) / leaf_size; }
+  /// Thing k of a leaf; -1: it has less.
+  int thing(int leaf, int k) const { return things[leaf_size * leaf + k]; }
 
   /// Calls visit(a, b) once for each two things whose boxes overlap, perhaps for some others.
   template <class Visitor> void visit_overlaps(Visitor visit) const
   {
-    std::vector<std::pair<int, int>> stack(1, {0, 0});
+    Pairs stack;
+    add_pairs_within(0, stack);
     while (!stack.empty()) {
-      const auto [m, n] = stack.back();
+      const auto [a, b] = stack.back();
       stack.pop_back();
-      const Node &a = nodes[m], &b = nodes[n];
-      if (m != n && !overlap(a, b)) continue;
+      const bool same = a.first == b.first && a.count == b.count;
       if (a.count && b.count) {
         for (int k = 0; k < a.count; k++)
-          for (int l = m == n ? k + 1 : 0; l < b.count; l++)
-            visit(things[a.first + k], things[b.first + l]);
-      } else if (m == n) {
-        stack.insert(stack.end(),
-                     {{a.first, a.first}, {a.first + 1, a.first + 1}, {a.first, a.first + 1}});
-      } else if (b.count || (!a.count && is_larger(a, b))) {
-        stack.insert(stack.end(), {{a.first, n}, {a.first + 1, n}});
+          for (int l = same ? k + 1 : 0; l < b.count; l++)
+            visit(thing(a.first, k), thing(b.first, l));
+      } else if (same) {
+        add_pairs_within(a.first, stack);
       } else {
-        stack.insert(stack.end(), {{m, b.first}, {m, b.first + 1}});
+        const bool divide_a = b.count || (!a.count && size_of(a) > size_of(b));
+        const Child &whole = divide_a ? a : b, &other = divide_a ? b : a;
+        for (int k = 0; k < width; k++)
+          if (const Child part = child(whole.first, k); overlap(part, other))
+            stack.push_back({part, other});
       }
     }
   }
@@ -66,38 +89,78 @@ class BoxTree {
   double memory_usage() const;
 
  private:
-  static constexpr int max_depth = 128;    // halves at every level: far more than needed
-  static constexpr int leaf_size = 6;
+  static constexpr int width = 8, halvings = 3;
+  static constexpr int max_stack =
+      128;    // seven at every level, an eighth as large as the one above
 
-  struct Node {
-    float low[3], high[3];    // rounded outward
-    int first, count;         // things of a leaf; count 0: children first and first + 1
+  /// By child. Without one: a box that is nowhere.
+  struct alignas(32) Node {
+    float low[3][width], high[3][width];    // rounded outward
+    int first[width], count[width];         // a leaf and its things; count 0: a node
   };
-  void split(int node, const std::vector<Eigen::AlignedBox3d> &boxes, int begin, int end);
+  struct Child {
+    float low[3], high[3];
+    int first, count;
+  };
+  using Pairs = std::vector<std::array<Child, 2>>;
 
-  static double square_distance(const Vector3<double> &p, const Node &b)
+  /// In numbers of the boxes: further by more than their rounding.
+  struct Place {
+    float at[3], square;
+
+    Place(const Vector3<double> &p, double reach) :
+        at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}
+    {
+      constexpr double rounding = 1.0e-6;
+      const double wide =
+          (1.0 + rounding) * reach + rounding * (std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z));
+      square =
+          static_cast<float>((1.0 + rounding) * wide * wide) + std::numeric_limits<float>::min();
+    }
+  };
+
+  using Boxes = std::vector<Eigen::AlignedBox3d>;
+  int grow(const Boxes &boxes, int *begin, int *end);
+  int add_leaf(const int *begin, const int *end);
+  static void divide(const Boxes &boxes, int *begin, int *end, int times, std::vector<int *> &ends);
+  static void set_box(Node &node, int k, const Boxes &boxes, const int *begin, const int *end);
+  void add_pairs_within(int node, Pairs &pairs) const;
+
+  static unsigned near_bits(const Node &node, const Place &place)
   {
-    const double x = std::max({b.low[0] - p.x, 0.0, p.x - b.high[0]});
-    const double y = std::max({b.low[1] - p.y, 0.0, p.y - b.high[1]});
-    const double z = std::max({b.low[2] - p.z, 0.0, p.z - b.high[2]});
-    return x * x + y * y + z * z;
+    using Memory8 = Memory<Float8>;
+    Float8 sum{};
+    for (int d = 0; d < 3; d++) {
+      const Float8 p = place.at[d] - Float8{};
+      const Float8 out =
+          larger(larger(Memory8::load(node.low[d]) - p, p - Memory8::load(node.high[d])), Float8{});
+      sum = sum + out * out;
+    }
+    return less_bits(sum, place.square - Float8{});
   }
 
-  static bool overlap(const Node &a, const Node &b)
+  Child child(int n, int k) const
+  {
+    const Node &node = nodes[n];
+    return {{node.low[0][k], node.low[1][k], node.low[2][k]},
+            {node.high[0][k], node.high[1][k], node.high[2][k]},
+            node.first[k],
+            node.count[k]};
+  }
+  static bool overlap(const Child &a, const Child &b)
   {
     for (int d = 0; d < 3; d++)
       if (a.low[d] > b.high[d] || b.low[d] > a.high[d]) return false;
     return true;
   }
-  static double size_of(const Node &a)
+  static double size_of(const Child &a)
   {
     return static_cast<double>(a.high[0] - a.low[0]) + static_cast<double>(a.high[1] - a.low[1]) +
            static_cast<double>(a.high[2] - a.low[2]);
   }
-  static bool is_larger(const Node &a, const Node &b) { return size_of(a) > size_of(b); }
   double sum_of_sizes() const;
 
-  std::vector<Node> nodes;
+  AlignedVector<Node> nodes;
   std::vector<int> things;
   double sizes_when_made = 0.0;
 };

@@ -70,6 +70,35 @@ struct EightContacts {
     curvature[k] = one.curvature;
     part[k] = one.part;
   }
+  /// Of a surface that does not describe itself.
+  SurfaceContact plain(int k) const
+  {
+    return {{normal[0][k], normal[1][k], normal[2][k]}, overlap[k], part[k]};
+  }
+};
+
+/// Where a body is flat around the point of it that is nearest to a sphere: the plane there.
+struct FlatPlace {
+  Vector3<double> normal{0.0, 0.0, 0.0};
+  double offset = 0.0;    ///< the product of the points of the plane with the normal
+  int part = 0;           ///< see SurfaceContact
+  /// The foot of the center on the plane stays on this part as long as the center goes no further
+  /// (length); 0: nothing is known.
+  double way = 0.0;
+};
+
+/// Eight of them side by side.
+struct EightFlatPlaces {
+  alignas(64) double normal[3][EightSpheres::width], offset[EightSpheres::width];
+  int part[EightSpheres::width];
+
+  void set(int k, const FlatPlace &one)
+  {
+    const double along[3] = {one.normal.x, one.normal.y, one.normal.z};
+    for (int d = 0; d < 3; d++) normal[d][k] = along[d];
+    offset[k] = one.offset;
+    part[k] = one.part;
+  }
 };
 
 /// A part of a body near some particle, and its distance at the time when it was listed.
@@ -163,6 +192,28 @@ class LargeBodyShape {
   {
     (void) parts;
     return distance_bound(center) < reach;
+  }
+
+  /// Of a part that is_near() has told, the nearest one to a sphere at `center`; `reach`: as there.
+  virtual FlatPlace flat_place(const Vector3<double> &center, double reach, int part) const
+  {
+    (void) center;
+    (void) reach;
+    (void) part;
+    return {};
+  }
+
+  /// Of eight spheres near nothing but flat places with a way, or parts of the same group, the bits
+  /// of those that touch, whose contacts are filled in. `told` receives the bits of those of which
+  /// this is all that find_contacts() would say, with the same bits; it is asked for the others.
+  virtual unsigned touches_flat(const EightSpheres &spheres, const EightFlatPlaces &places,
+                                EightContacts &contacts, unsigned &told) const
+  {
+    (void) spheres;
+    (void) places;
+    (void) contacts;
+    told = 0;
+    return 0;
   }
 
   /// For messages, of shapes with parts: the part through which the straight way leads that a

@@ -26,6 +26,7 @@ MeshDetail::MeshDetail(const TriangleMesh &triangle_mesh, const Eigen::AlignedBo
   find_rings(edges);
   look_at_corners();
   grow_tree();
+  make_slabs();
 }
 
 /* Limits of cosines, which save time, are those of a mesh at rest. */
@@ -258,7 +259,7 @@ double MeshDetail::memory_usage() const
   const auto bytes = [](const auto &v) { return static_cast<double>(v.capacity() * sizeof v[0]); };
   double sum = bytes(faces) + bytes(reports) + bytes(near) + bytes(neighbors) + bytes(nonmanifold) +
                bytes(corners) + bytes(vertex_numbers) + bytes(ring_begin) + bytes(ring) +
-               bytes(vertex_normals) + bytes(around_begin) + bytes(around);
+               bytes(vertex_normals) + bytes(slabs) + bytes(around_begin) + bytes(around);
   for (const auto &users : nonmanifold) sum += bytes(users);
   return sum + (tree ? tree->memory_usage() : 0.0);
 }

@@ -40,12 +40,16 @@ class MeshDetail {
   /// Of a mesh whose vertices move.
   explicit MeshDetail(const TriangleMesh &mesh);
 
-  /// Calls visit(t) for every triangle whose box is nearer to the point than `reach`, perhaps for
-  /// some others.
+  /// Calls visit(t) for every triangle that is nearer to the point than `reach`, perhaps for some others.
   template <class Visitor>
   void visit_near(const Vector3<double> &point, double reach, Visitor visit) const
   {
-    if (tree) tree->visit_near(point, reach, [&](int thing) { visit(near[thing]); });
+    if (!tree) return;
+    tree->visit_leaves_near(point, reach, [&](int leaf, int count) {
+      unsigned bits = (1U << count) - 1U;
+      if (!slabs.empty()) bits &= near_bits(slabs[leaf], point, reach);
+      for (; bits; bits &= bits - 1U) visit(near[tree->thing(leaf, __builtin_ctz(bits))]);
+    });
   }
 
   /// Triangles that visit_near() may find.
@@ -57,6 +61,10 @@ class MeshDetail {
     return moves ? mesh.normal(mesh.plane_of(t)) : faces[t].normal;
   }
   NearestPoint nearest(int t, const Vector3<double> &point) const;
+
+  /// The plane of triangle t if the nearest point of it is in its inside, by far more than rounding
+  /// over the size of the triangle and `reach` (length).
+  FlatPlace flat_place(int t, const Vector3<double> &center, double reach) const;
 
   /// Does the way between two points lead through triangle t? At its rim, by rounding, perhaps.
   bool is_between(int t, const Vector3<double> &from, const Vector3<double> &to) const;
@@ -94,6 +102,15 @@ class MeshDetail {
     float least_at_corners;    // the same for all three corners
     int number;
   };
+  /// Of the triangles of a leaf: each is in its plane, the first one, and behind three that stand on its
+  /// edges.
+  struct alignas(32) Slabs {
+    float normal[4][3][BoxTree::leaf_size], offset[4][BoxTree::leaf_size];
+    void set_plane(int k, int which, const Vector3<double> &normal, const Vector3<double> &point);
+  };
+  static unsigned near_bits(const Slabs &slabs, const Vector3<double> &point, double reach);
+  void make_slabs();
+
   struct Reports {    // bits: it is this triangle that reports them
     unsigned char edge, corner;
   };
@@ -126,6 +143,7 @@ class MeshDetail {
   std::vector<Reports> reports;
   std::vector<int> near;    // faces within the cover; the others are their neighbors
   std::unique_ptr<BoxTree> tree;
+  AlignedVector<Slabs> slabs;    // by leaf; none if vertices move
   std::vector<Neighbors> neighbors;
   std::vector<std::vector<int>> nonmanifold;    // all triangles of an edge, ascending
   // vertices: numbers of their own; which of the mesh, those joined to them by an edge, normal

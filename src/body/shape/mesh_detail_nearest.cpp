@@ -4,7 +4,9 @@
 
 #include "body/shape/mesh_detail.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Talus {
 namespace {
@@ -77,6 +79,25 @@ NearestPoint MeshDetail::nearest(int t, const Vector3<double> &p) const
         plane == t ? now.corner[0] : mesh.vertex(mesh.corners(plane).vertex[0]);
     return (dot(p, n) - dot(origin, n)) * n;
   });
+}
+
+/* The foot goes no further than the center. So far from all edges as is taken off, nothing of the same plane that
+   is beyond them is as near as the foot, however it is rounded. */
+
+FlatPlace MeshDetail::flat_place(int t, const Vector3<double> &center, double reach) const
+{
+  constexpr double margin = 1.0e-5;
+  if (moves || nearest(t, center).feature != NearestPoint::FACE) return {};
+  const Face &face = faces[t];
+  double inside = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const Vector3<double> edge = face.corner[(k + 1) % 3] - face.corner[k];
+    const double size = length(edge);
+    inside = std::min(inside, dot(cross(edge, center - face.corner[k]), face.normal) / size);
+    longest = std::max(longest, size);
+  }
+  const double way = inside - margin * (longest + reach);
+  return {face.normal, face.offset, face.number, std::max(way, 0.0)};
 }
 
 /* Where the way meets the plane, and whether this is on the inner side of all edges. */

@@ -105,6 +105,9 @@ class MeshShape : public LargeBodyShape {
                     SurfaceContact *found) const override;
   bool is_near(const Vector3<double> &center, double reach,
                std::vector<NearPart> &parts) const override;
+  FlatPlace flat_place(const Vector3<double> &center, double reach, int part) const override;
+  unsigned touches_flat(const EightSpheres &spheres, const EightFlatPlaces &places,
+                        EightContacts &contacts, unsigned &told) const override;
   Passage passage(const Vector3<double> &from, const Vector3<double> &to,
                   NearParts parts) const override;
   int idle_part(const Vector3<double> &center, double radius, NearParts parts) const override;
