@@ -49,12 +49,10 @@ std::vector<Triangle> flat(RandomSource &random)
 {
   constexpr int n = 8;
   V place[n + 1][n + 1];
-  for (auto &row : place)
-    for (V &p : row) {
-      const auto i = &p - &place[0][0];
-      const double u = i % (n + 1) + random.uniform(-0.3, 0.3),
-                   v = i / (n + 1) + random.uniform(-0.3, 0.3);
-      p = V{0.3, -0.2, 5.0} + (u / n) * V{0.8, 0.0, 0.6} + (v / n) * V{0.36, 0.8, -0.48};
+  for (int j = 0; j <= n; j++)
+    for (int i = 0; i <= n; i++) {
+      const double u = i + random.uniform(-0.3, 0.3), v = j + random.uniform(-0.3, 0.3);
+      place[j][i] = V{0.3, -0.2, 5.0} + (u / n) * V{0.8, 0.0, 0.6} + (v / n) * V{0.36, 0.8, -0.48};
     }
   return grid(n, [&](int i, int j) { return place[j][i]; });
 }
