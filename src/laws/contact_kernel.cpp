@@ -6,7 +6,6 @@
 #include "laws/end_of_touch.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
-#include "laws/law_list.h"
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
@@ -175,31 +174,15 @@ static HistoryIndices consecutive_history_indices(const ContactLaw &law)
   return history_index;
 }
 
-/// The function for the stages before cohesion, nullptr if there is none that finds all that the rest reads.
-static StageFunction fused_before_cohesion(const ContactLaw &law)
-{
-  if (!law.cohesion().acts) return fused_function(law);
-  ContactLaw dry = law;
-  dry.choose(Stage::COHESION, laws_of(Stage::COHESION).front());
-  const bool is_enough = !law.tangential().second_order && law.has_friction() == dry.has_friction();
-  return is_enough ? fused_function(dry) : nullptr;
-}
-
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
   const StageFunction fused =
-      uniform && (advance || !law.has_history()) ? fused_before_cohesion(law) : nullptr;
+      uniform && (advance || !law.has_history()) ? fused_function(law) : nullptr;
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
   kernel.add_end_of_contact(law);
   kernel.add(fused, 0, consecutive_history_indices(law));
-  if (law.cohesion().acts) {
-    kernel.add(run_approach<true, false, false>);    // fused functions leave nothing of it
-    kernel.add_end_of_touch(law, advance);
-    kernel.add(advance ? law.cohesion().advancing : law.cohesion().reading,
-               law.first_coefficient(Stage::COHESION));
-  }
   return kernel;
 }
 

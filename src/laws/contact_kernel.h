@@ -3,7 +3,7 @@
 // The computation of a batch of contacts: the stages of their law, one after the other, each over
 // all contacts; a batch and what stages leave for each other fit into the first cache. For the few
 // most common laws there is one function with all stages in it (see
-// fused_kernels.h), with the same bits; a law of cohesion may follow it.
+// fused_kernels.h), with the same bits.
 
 #ifndef TALUS_LAWS_CONTACT_KERNEL_H
 #define TALUS_LAWS_CONTACT_KERNEL_H
