@@ -4,13 +4,11 @@
 
 #include "contacts_by_words.h"
 #include "laws/second_order_laws.h"
-#include "random_source.h"
 #include "shaped/point_batch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 using namespace contacts;
 
@@ -172,46 +170,6 @@ TEST(LiquidBridge, IsAllThatActsWhereBodiesAreApart)
       EXPECT_NEAR(batch.work[0][k], 1e-5 * attraction * 0.1, 1e-12 * attraction) << law;
       EXPECT_EQ(batch.work[1][k], 0.0);
       EXPECT_EQ(batch.work[2][k], 0.0);
-    }
-  }
-}
-
-// One function for most stages and a law of cohesion behind it, against all stages.
-TEST(LiquidBridge, HasTheBitsOfItsStages)
-{
-  RandomSource random(5);
-  ContactBatch fused, staged;
-  for (const std::string adhesion :
-       {"willett 0.07 20 volume 1e-11 viscosity 0.01 0.01", "rabinovich 0.07 20 fraction 0.01",
-        "constant 1e-4", "perko 0.1"}) {
-    const Pair pair(dry + adhesion, 1e-3, 1e-3);
-    ASSERT_FALSE(contact_kernel(pair.law, true, true) == staged_kernel(pair.law, true, true));
-    for (int n = 0; n < 200; n++) {
-      fused.clear();
-      for (int k = 0; k < ContactBatch::width; k++) {
-        const bool apart = pair.law.bridges() && random.chance(0.5);
-        const ContactState<double> s = pair.at((apart ? 1.0 : -1.0) * random.decade(-7.0, -5.0));
-        fused.overlap[k] = s.overlap;
-        fused.inverse_mass[k] = 1e6;
-        fused.inverse_radius[k] = s.inverse_radius;
-        fused.inverse_distance[k] = s.inverse_distance;
-        const double angle = random.uniform(0.0, 2 * pi);
-        fused.normal[0][k] = std::cos(angle);
-        fused.normal[1][k] = std::sin(angle);
-        for (int d = 0; d < 3; d++) {
-          fused.velocity[d][k] = random.uniform(-1.0, 1.0);
-          fused.surface_rotation[d][k] = random.uniform(-1.0, 1.0);
-          fused.history[d][k] = random.uniform(-1e-6, 1e-6);
-        }
-      }
-      staged = fused;
-      contact_kernel(pair.law, true, true)(fused, 0, ContactBatch::width, &pair.row, 1e-6);
-      staged_kernel(pair.law, true, true)(staged, 0, ContactBatch::width, &pair.row, 1e-6);
-      ASSERT_EQ(std::memcmp(fused.force, staged.force, sizeof fused.force), 0);
-      ASSERT_EQ(std::memcmp(fused.torque_per_radius, staged.torque_per_radius,
-                            sizeof fused.torque_per_radius),
-                0);
-      ASSERT_EQ(std::memcmp(fused.history, staged.history, sizeof fused.history), 0);
     }
   }
 }
