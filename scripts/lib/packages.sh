@@ -11,7 +11,7 @@ TALUS_PACKAGES=(
 )
 
 # What tests need besides, and benchmarks.
-TALUS_TEST_PACKAGES=(python3-numpy libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev ccache)
+TALUS_TEST_PACKAGES=(python3-numpy libgtest-dev libgmock-dev libyaml-dev libbenchmark-dev ccache pkg-config)
 TALUS_BENCHMARK_PACKAGES=(libbenchmark-dev)
 
 # Programs that tests couple with Talus.
