@@ -253,6 +253,7 @@ OTHERS = [
      "'fix ID all property/atom temperature heatflow ghost yes'", None),
     (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature hot", "expected temperature T", "hot"),
     (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature v_t\nrun 0", "variable 't' does not exist", None),
+    (f"{PAIR}{PLANE} contact hertz 1e6 2.0 heat area 1.0 temperature NULL", "expected temperature T", "NULL"),
     # computes
     (f"{PAIR}compute s all penalty/stats foo", "compute penalty/stats: surplus word 'foo'", "foo"),
     (f"{PAIR}group one id 1\ncompute s one penalty/stats", "expected group all instead of 'one'", "one"),

@@ -146,6 +146,7 @@ void BodyMotionWords::parse_servo(BodyMotionSpec &spec)
 
 NumberOrVariable BodyMotionWords::quantity(const char *name)
 {
+  if (words.take("NULL")) return {};
   return NumberOrVariable::from(words, name);
 }
 

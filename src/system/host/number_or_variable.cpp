@@ -17,7 +17,7 @@ namespace Talus {
 NumberOrVariable NumberOrVariable::from(Words &words, const char *what)
 {
   if (words.peek().compare(0, 2, "v_") == 0) return {0.0, words.text(what).substr(2)};
-  return {words.number_or_null(what), {}};
+  return {words.number(what), {}};
 }
 
 void NumberOrVariable::check(LAMMPS *lmp, const std::string &command) const

@@ -19,7 +19,7 @@ struct NumberOrVariable {
   double value = 0.0;
   std::string name;    ///< of a variable; "": it is the number
 
-  /// Of the next word of a command: v_NAME, or a number or NULL (0). `what` is told in messages.
+  /// Of the next word of a command: v_NAME, or a number. `what` is told in messages.
   static NumberOrVariable from(Words &words, const char *what);
 
   bool is_variable() const { return !name.empty(); }
