@@ -32,7 +32,7 @@ using namespace Talus;
 /* As `verlet` it takes the place of LAMMPS', which ignores words. */
 
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
-    Verlet(lmp, 0, nullptr), system(GranularSystem::of(lmp))
+    Verlet(lmp, 0, nullptr), system(GranularSystem::of(lmp)), box_speeds(lmp)
 {
   if (std::strcmp(update->integrate_style, "verlet") == 0) return;
   Words words = command_words(lmp, "run_style verlet/proxy", narg, arg, 0, 1);
@@ -126,6 +126,7 @@ void VerletProxy::run(int n)
   lists->start_count();
   lists->ask(nullptr);
   system->step().start_run(pair_compute_flag);
+  box_speeds.start();
   reverses = force->newton && others_act_on_ghosts();
   // an error on the way, or the end of the time allowed, must not leave the arrays of LAMMPS behind
   struct End {
@@ -189,6 +190,7 @@ void VerletProxy::step()
   fixes.post_force(vflag);
   fixes.final_integrate();
   fixes.end_of_step();
+  box_speeds.correct();
 
   if (now == output->next) {
     timer->stamp(Timer::MODIFY);

@@ -12,6 +12,7 @@
 #define LMP_VERLET_PROXY_H
 
 #include "run/rebuild_check.h"
+#include "system/host/box_speeds.h"
 #include "system/host/system_run_style.h"
 #include "system/step/granular_system.h"
 
@@ -49,6 +50,7 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
 
   std::optional<Talus::RebuildCheck> lists;    ///< of the first run with steps of its own
   std::shared_ptr<Talus::GranularSystem> system;
+  Talus::BoxSpeeds box_speeds;
   Overlap wanted = Overlap::AUTOMATIC;
   std::optional<bool> on_machines;             ///< more than one
   bool ever_set_up = false, set_up = false;    ///< the second: for the coming run

@@ -7,6 +7,8 @@ from quantities import line, number
 STIFFNESS, PRESSURE, RATE = (0, 1, -2), (-1, 1, -2), (0, 0, -1)
 RATE_BY_LENGTH, RATE_BY_AREA = (-1, 0, -1), (-2, 0, -1)
 SPEED, FORCE, TORQUE = (1, 0, -1), (1, 1, -2), (2, 1, -2)
+CONDUCTIVITY, BY_AREA, HEAT_CAPACITY = (1, 1, -3), (0, 1, -3), (2, 0, -2)    # of one unit of temperature
+TENSION, VOLUME, VISCOSITY = (0, 1, -2), (3, 0, 0), (-1, 1, -1)
 RESISTING = "rolling", "spinning", "twisting"
 
 
@@ -28,10 +30,15 @@ def _normal(rng, name):
         "flores/material": (line(young, e, nu, some(rng, 0.5, 2.0, *SPEED)), None),
         "dmt": (line(young, some(rng, 5, 60, *RATE_BY_LENGTH), nu, some(rng, 0.5, 10, 0, 1, -2)), None),
         "jkr": (line(young, some(rng, 5, 60, *RATE_BY_LENGTH), nu, some(rng, 0.5, 10, 0, 1, -2)), None),
+        "luding": (line(some(rng, 4e3, 1e4, *STIFFNESS), some(rng, 1.5e4, 3e4, *STIFFNESS), some(rng, 0, 8e3, *STIFFNESS),
+                        some(rng, 0.01, 0.1), some(rng, 0, 30, *RATE)), RATE),
+        "walton/braun": (line(some(rng, 4e3, 1e4, *STIFFNESS), some(rng, 1.1e4, 3e4, *STIFFNESS), some(rng, 0, 30, *RATE)), RATE),
     }[name]
 
 
 COHESIVE = "dmt", "jkr"
+PLASTIC = "luding", "walton/braun"
+ADHESIVE = *COHESIVE, "luding"    # of their own
 NORMALS = "hooke", "hertz", "flores", "hooke/material", "hertz/material", "flores/material"
 MATERIALS = NORMALS[3:]
 
@@ -71,14 +78,31 @@ def _resistance(rng, tangential):
     return found
 
 
+def _adhesion(rng):
+    """Keyword adhesion and its words, or none."""
+    kind = rng.random()
+    if kind < 0.15:
+        return line("adhesion constant", some(rng, 1, 20, *FORCE))
+    if kind > 0.3:
+        return ()
+    amount = line("volume", some(rng, 5e-4, 5e-3, *VOLUME)) if rng.random() < 0.5 else line("fraction", some(rng, 1e-3, 1e-2))
+    model = "adhesion willett" if rng.random() < 0.5 else "adhesion rabinovich"
+    words = line(model, some(rng, 0.2, 4, *TENSION), some(rng, 0, 80), amount)
+    if rng.random() < 0.5:
+        words = line(words, "viscosity", some(rng, 0.01, 0.2, *VISCOSITY), some(rng, 0.01, 0.1))
+    return words
+
+
 def law(rng, shapes=False, normal=None):
     """Words of any law; shapes: of those that particles with a shape may have."""
-    normal = normal or rng.choice(NORMALS if shapes else NORMALS + COHESIVE)
+    normal = normal or rng.choice(NORMALS if shapes else NORMALS + COHESIVE + PLASTIC)
     words, gt = _normal(rng, normal)
     tangential = _tangential(rng, normal, gt)
     more = () if shapes else _resistance(rng, tangential)
-    if normal not in COHESIVE:
-        if rng.random() < 0.15:
+    if normal not in ADHESIVE:
+        if not shapes:
+            more = line(more, _adhesion(rng))
+        elif rng.random() < 0.15:
             more = line(more, "adhesion constant", some(rng, 1, 20, *FORCE))
         if rng.random() < 0.3:
             more = line(more, "limit_damping")
@@ -89,6 +113,13 @@ def of_second_order(rng, normal):
     """One that the integrator with `order 2` takes."""
     words, _ = _normal(rng, normal)
     return line(normal, words, "tangential multistep NULL NULL", some(rng, 0.1, 0.7), "slider midpoint limit_damping")
+
+
+def heat(rng):
+    """Keyword heat of a law."""
+    if rng.random() < 0.5:
+        return line("heat radius", some(rng, 1, 20, *CONDUCTIVITY))
+    return line("heat area", some(rng, 1, 20, *BY_AREA))
 
 
 def elastic(rng, normal="hooke"):

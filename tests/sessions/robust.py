@@ -44,7 +44,10 @@ compute sum all penalty/stats;thermo_style custom step c_sum[2] c_sum[4]|thermo_
 undump see|dump film all vtk/gran 3 film.pvd|undump film|dump see all custom 2 see id x y z;run 4;undump see;rerun see first 0 dump x y z
 write_data session.data|fix many all pour/rate 5 1 ball 1.0 diameter 0.3 density 1 seed 5|unfix many
 fix many all pour/rate 5 1 ball 5.0 diameter uniform 0.2 0.4 density 1 seed 5;run 12|fix more all deposit 4 1 3 771 region ball near 0.5;run 3
-unfix more|atom_modify sort 1 0.5|atom_modify sort 0 0|info all out log|fix turn all deform 2 x erate 0.1 remap x|unfix turn|minimize 1e-4 1e-4 3 3
+unfix more|atom_modify sort 1 0.5|atom_modify sort 0 0|info all out log|fix turn all deform 2 x erate 0.1 remap x|unfix turn
+fix turn all deform 1 y erate 0.1 remap v|fix turn all deform 1 z final -3 9 remap none|fix press all press/berendsen iso 1 2 1|unfix press
+set group all temperature 2|compute warmth all property/atom temperature;dump warm all custom 2 warm id c_warmth
+minimize 1e-4 1e-4 3 3
 @advance 4|@save s|@restore s|@discard s|@set_up|@put_forces 1 0 0 3|@close|@watch b0;@advance 2;@load b0|@put_drag 1 0.3 0 0 1
 @other;@other_forces 2 0 0 1|@other_close""".replace("\n", "|").split("|")
 

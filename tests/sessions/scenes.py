@@ -117,11 +117,14 @@ def spheres(rng, periodic=False, moves=True):
     types = rng.choice((1, 1, 2))
     found = grains(rng, rng.randint(6, 30), types, rng.choice(((0.9, 1.05), (0.8, 1.1), (0.4, 1.1))))
     second = rng.random() < 0.15
+    hot = not second and rng.random() < 0.15
     normal = rng.choice(laws.MATERIALS + laws.COHESIVE) if rng.random() < 0.4 else None
     normal = rng.choice(("hooke", "hertz")) if second else normal
 
     def law(normal=normal):
-        return laws.of_second_order(rng, normal) if second else laws.law(rng, normal=normal)
+        if second:
+            return laws.of_second_order(rng, normal)
+        return line(laws.law(rng, normal=normal), laws.heat(rng) if hot else ())
 
     physics = [line("pair_style gran/penalty"), line("pair_coeff * *", law())]
     if types == 2:
@@ -139,9 +142,20 @@ def spheres(rng, periodic=False, moves=True):
     materials = normal in laws.MATERIALS + laws.COHESIVE
 
     def contact():
-        return law(normal if materials or second else rng.choice(laws.NORMALS[:3]))
+        words = law(normal if materials or second else rng.choice(laws.NORMALS[:3] + laws.PLASTIC))
+        return line(words, "temperature", laws.some(rng, 0, 5)) if hot and rng.random() < 0.7 else words
 
-    return _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=traits)
+    scene = _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=traits)
+    return _with_heat(rng, scene) if hot else scene
+
+
+def _with_heat(rng, scene):
+    """Its grains have a temperature each, which conduction changes."""
+    physics = (*scene.physics, line("fix warm all heat/flow constant", laws.some(rng, 0.5, 2, *laws.HEAT_CAPACITY)),
+               line("compute hot all property/atom temperature heatflow"))
+    first = line("set group all temperature 1"), line("set atom", f"1*{rng.randint(1, len(scene.grains))}", "temperature 4")
+    return scene.but(start=(*scene.start, line("fix hot all property/atom temperature heatflow ghost yes")), physics=physics,
+                     program=(*first, *scene.program), columns=("c_hot[1]", "c_hot[2]"), traits=scene.traits | {"hot"})
 
 
 def _with_bodies(rng, found, physics, boundary, types, contact, moves=True, traits=(), columns=(), start=(), kinds=None):

@@ -98,7 +98,8 @@ def _scenes(scene):
                 yield scene.but(physics=(*scene.physics[:n], (*words[:k], rounded(word, 2), *words[k + 1:]), *scene.physics[n + 1:]))
 
 
-OPTIONS = ("tangential", "rolling", "rolling sds", "spinning", "twisting sds", "adhesion constant", "limit_damping", "move free mass",
+OPTIONS = ("tangential", "rolling", "rolling sds", "spinning", "twisting sds", "adhesion constant", "adhesion willett", "adhesion rabinovich", "viscosity",
+           "heat radius", "heat area", "temperature", "limit_damping", "move free mass",
            "move linear", "move wiggle", "move rotate", "servo force", "gravity", "start", "velocity", "spin", "rounded", "midpoint",
            "slider", "stock")
 
