@@ -191,6 +191,33 @@ fix mean all ave/time 1 2000 4000 f_body[3] f_floor[3]
                         self.assertAlmostEqual(last["f_body[16]"], 0.0, delta=1e-3)
 
 
+    def test_follows_a_variable(self):
+        """Within the time that the speed needs, target/(vmax k) = 5 ms of a period of 1 s."""
+        law = "hooke 1e4 20"
+        for np in 1, 2:
+            rows = self.simulate([Sphere((0, 0, 0.5), diameter=1.0, density=1.0)], f"""
+variable aim equal 10*(1+0.5*sin(2*PI*step*dt))
+fix step all nve/sphere/symplectic
+fix floor all large/body plane 0 0 0 0 0 1 contact {law}
+fix body all large/body rectangle 0 0 1.0 0 0 -1 1 0 0 2 2 contact {law} servo force 0 0 -1 v_aim 0.2
+""", 8000, dt=2.5e-4, pair=law, columns=VECTOR + " v_aim", every=400, np=np)
+            off = [abs(row["f_body[3]"] - row["v_aim"]) for row in rows if row["Step"] > 2000]
+            print(f"servo: at most {max(off):.3f} away from a target of 5 to 15")
+            self.assertGreater(len(off), 10)
+            self.assertLess(max(off), 0.3)
+
+    def test_variables_that_cannot_be_a_target(self):
+        write_sphere_data(self.path("grains"), BOX, [Sphere((0, 0, 0.5))])
+        for value, message in (("equal step-3", "servo: variable 'aim' is 0 in this step; the target must be a number that is not zero"),
+                               ("atom x", "variable 'aim' is not an equal-style variable"), (None, "variable 'aim' does not exist")):
+            commands = (f"variable aim {value}\n" if value else "") + (
+                "fix body all large/body rectangle 0 0 1.0 0 0 -1 1 0 0 2 2 contact hooke 1e4 20 servo force 0 0 -1 v_aim 0.2")
+            for np in 1, 2:
+                log = self.run_lammps(SCENE.format(pair="hooke 1e4 20", dt=1e-3, commands=commands, columns="time", steps=10, thermo=10),
+                                      np=np, expect_error=True).log
+                self.assertIn(message, log.replace("\n", " "))
+
+
 class Balance(MotionCase):
 
     def test_third_law(self):

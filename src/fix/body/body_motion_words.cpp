@@ -138,8 +138,10 @@ void BodyMotionWords::parse_servo(BodyMotionSpec &spec)
   spec.kind = Kind::SERVO;
   spec.servo.turns = words.choice("quantity", {"force", "torque"}) == 1;
   spec.servo.axis = words.direction("axis (x y z)");
-  spec.servo.target = words.number("target");
-  if (spec.servo.target == 0.0) words.fail(1, "target must not be zero");
+  spec.servo_target = NumberOrVariable::from(words, "target");
+  spec.servo.target = spec.servo_target.value;
+  if (!spec.servo_target.is_variable() && spec.servo.target == 0.0)
+    words.fail(1, "target must not be zero");
   spec.servo.vmax = words.positive("vmax");
   if (words.take("gain")) spec.servo.gain = words.positive("gain");
 }

@@ -28,6 +28,7 @@ struct BodyMotionSpec {
   BodyState initial;    ///< velocities of a free body
   std::optional<Vector3<double>> center_of_mass;
   Servo servo;
+  NumberOrVariable servo_target;
   std::optional<Vector3<double>> gravity;                 ///< acceleration of a free body
   std::optional<std::array<NumberOrVariable, 6>> load;    ///< force and torque on a free body
   std::optional<Vector3<double>> surface_velocity;

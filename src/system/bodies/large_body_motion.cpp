@@ -50,6 +50,7 @@ LargeBodyMotion::LargeBodyMotion(LAMMPS *lmp, const BodyMotionSpec &spec, LargeB
 void LargeBodyMotion::init()
 {
   for (const NumberOrVariable &q : given.path) q.check(lmp, "Fix large/body");
+  given.servo_target.check(lmp, "Fix large/body");
   if (!given.load) return;
   for (const NumberOrVariable &q : *given.load) q.check(lmp, "Fix large/body");
 }
@@ -58,6 +59,7 @@ bool LargeBodyMotion::asks_variables() const
 {
   const auto asks = [this](const NumberOrVariable &q) { return q.reads_more_than_time(lmp); };
   return (kind == Kind::VARIABLE && std::any_of(given.path.begin(), given.path.end(), asks)) ||
+         given.servo_target.reads_more_than_time(lmp) ||
          (kind == Kind::REGION && !variable_that_may_read_particles(lmp, *region).empty()) ||
          (given.load && std::any_of(given.load->begin(), given.load->end(), asks));
 }
@@ -162,11 +164,27 @@ void LargeBodyMotion::move(const BodyLoad &load, double lag)
   now.set(state);
 }
 
+/* In the step in which it is to be pressed. */
+
+void LargeBodyMotion::aim_servo()
+{
+  if (!given.servo_target.is_variable()) return;
+  modify->clearstep_compute();
+  given.servo.target = given.servo_target.evaluate(lmp);
+  modify->addstep_compute(update->ntimestep + 1);
+  if (!std::isfinite(given.servo.target) || given.servo.target == 0.0)
+    error->all(FLERR,
+               "Fix large/body servo: variable '{}' is {} in this step; the target must be a "
+               "number that is not zero: begin with a small one",
+               given.servo_target.name, given.servo.target);
+}
+
 /* To second order the rate is that half way through the step, of the last two loads (Adams and
    Bashforth). */
 
 void LargeBodyMotion::move_servo(BodyState &state, const BodyLoad &load, double lag)
 {
+  aim_servo();
   // of the product of slope and damping, beyond which speeds begin to flip: an extrapolated rate
   // does from 1/3 on, that of the last step from 1 on
   const double limit = lag > 0.0 ? 0.25 : 0.7;

@@ -83,6 +83,7 @@ class LargeBodyMotion : protected LAMMPS_NS::Pointers {
   void evaluate_region(double dt);
   void move(const BodyLoad &load, double lag);
   void move_free(BodyState &state, const BodyLoad &load, double lag);
+  void aim_servo();
   void move_servo(BodyState &state, const BodyLoad &load, double lag);
   void find_kinematics(const BodyState &old, double lag);
   void stand_still();
