@@ -19,8 +19,9 @@ measure() {
   TALUS_BENCH_HOST=$HOST_BINARY/lmp TALUS_BENCH_SOURCE=$HOST_SOURCE TALUS_BENCH_CACHE=$(cache_dir)/bench
   TALUS_CXX_VERSION=$("$(host_compiler)" --version | head -n 1)
   export TALUS_BENCH_HOST TALUS_BENCH_SOURCE TALUS_BENCH_CACHE TALUS_CXX_VERSION
-  for name in "${names[@]}"; do
-    "$python" "$TALUS_ROOT/bench/lib/main.py" "$folder" "$name" "$@" </dev/null || status=$?
+  for name in "${names[@]}"; do    # wait: signals end this script at once, and ended.py sees it
+    "$python" "$TALUS_ROOT/bench/lib/ended.py" "$python" "$TALUS_ROOT/bench/lib/main.py" "$folder" "$name" "$@" </dev/null &
+    wait "$!" || status=$?
   done
   return "$status"
 }

@@ -79,6 +79,14 @@ ensure_packages() {
   install_packages "${missing[@]}"
 }
 
+# announce_packages PACKAGE...: what will be installed, in one line before any of it is, and before a build.
+announce_packages() {
+  [[ -z ${TALUS_SKIP_PACKAGES:-} ]] && have dpkg-query || return 0
+  local missing
+  mapfile -t missing < <(missing_packages "${TALUS_PACKAGES[@]}" "$@")
+  ((${#missing[@]} == 0)) || note "installs the Debian packages ${missing[*]}; with TALUS_SKIP_PACKAGES=1 none"
+}
+
 # optional_packages CONSEQUENCE NAME...: install them if that is possible; otherwise say what follows.
 optional_packages() {
   local consequence=$1 missing
