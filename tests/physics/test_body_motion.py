@@ -192,7 +192,7 @@ fix mean all ave/time 1 2000 4000 f_body[3] f_floor[3]
 
 
     def test_follows_a_variable(self):
-        """Within the time that the speed needs, target/(vmax k) = 5 ms of a period of 1 s."""
+        """Within the time that the speed needs, target/(vmax k), 2 to 8 ms of a period of 1 s."""
         law = "hooke 1e4 20"
         for np in 1, 2:
             rows = self.simulate([Sphere((0, 0, 0.5), diameter=1.0, density=1.0)], f"""
@@ -204,7 +204,7 @@ fix body all large/body rectangle 0 0 1.0 0 0 -1 1 0 0 2 2 contact {law} servo f
             off = [abs(row["f_body[3]"] - row["v_aim"]) for row in rows if row["Step"] > 2000]
             print(f"servo: at most {max(off):.3f} away from a target of 5 to 15")
             self.assertGreater(len(off), 10)
-            self.assertLess(max(off), 0.3)
+            self.assertLess(max(off), 0.4)
 
     def test_variables_that_cannot_be_a_target(self):
         write_sphere_data(self.path("grains"), BOX, [Sphere((0, 0, 0.5))])
