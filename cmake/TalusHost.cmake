@@ -32,7 +32,7 @@ function(talus_read_host_cache)
       "with CMake and pass that directory as LAMMPS_BINARY_DIR, or run scripts/build.")
   endif()
   set(wanted CMAKE_HOME_DIRECTORY LAMMPS_SIZES LAMMPS_MACHINE BUILD_MPI BUILD_OMP
-    BUILD_SHARED_LIBS PKG_PLUGIN PKG_GRANULAR PKG_RIGID)
+    BUILD_SHARED_LIBS PKG_PLUGIN PKG_BPM PKG_GRANULAR PKG_RIGID)
   load_cache("${dir}" READ_WITH_PREFIX HOST_ ${wanted})
   foreach(name IN LISTS wanted)
     set(HOST_${name} "${HOST_${name}}" PARENT_SCOPE)
@@ -63,7 +63,7 @@ function(talus_ask_host_program)
     set(HOST_LAMMPS_SIZES "${sizes}" PARENT_SCOPE)
   endif()
   string(REGEX MATCH "Installed packages:.*" packages "${text}")
-  foreach(name PLUGIN GRANULAR RIGID)
+  foreach(name PLUGIN BPM GRANULAR RIGID)
     string(REGEX MATCH "[ \n]${name}[ \n]" HOST_PKG_${name} "${packages}")
     set(HOST_PKG_${name} "${HOST_PKG_${name}}" PARENT_SCOPE)
   endforeach()
@@ -253,6 +253,13 @@ if(HOST_PKG_RIGID)
   set(TALUS_HOST_HAS_RIGID 1)
   set(talus_rigid_headers "${LAMMPS_SOURCE_DIR}/src/RIGID")
 endif()
+
+# Of the styles of package BPM alone: other sources are compiled the same with and without it (TalusStyles.cmake).
+set(TALUS_HOST_HAS_BPM 0)
+if(HOST_PKG_BPM)
+  set(TALUS_HOST_HAS_BPM 1)
+endif()
+talus_look_into_host(TALUS_HOST_HAS_BOND_FRAMES BPM/bond_bpm_rotational.h "frame_style")
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.

@@ -27,6 +27,7 @@ function(talus_add_styles_module module suffix)
   talus_add_module(${module} "talus_register_*" "${PROJECT_SOURCE_DIR}/src/talusstyles.cpp"
     $<TARGET_OBJECTS:talus_styles${suffix}> ${ARGN})
   target_include_directories(${module} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_compile_definitions(${module} PRIVATE TALUS_HOST_HAS_BPM=${TALUS_HOST_HAS_BPM})
   target_link_libraries(${module} PRIVATE talus_core${suffix} talus_exchange${suffix} lammps_host)
 endfunction()
 

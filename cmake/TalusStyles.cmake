@@ -2,7 +2,7 @@
 
 set(talus_rooms bodies contacts exchange host loads monitor regions shapes snapshot step)
 list(TRANSFORM talus_rooms PREPEND system/)
-talus_glob(talus_style_sources ${talus_rooms} pair fix/body fix/clump fix/motion fix/shape fix/wall compute dump fill comm run coupling)
+talus_glob(talus_style_sources ${talus_rooms} pair bond fix/body fix/clump fix/motion fix/shape fix/wall compute dump fill comm run coupling)
 
 # What derives from classes of package GRANULAR, or uses its contact model, is left out for a host without it:
 # talusstyles.cpp registers such styles only #if TALUS_HOST_HAS_GRANULAR.
@@ -27,6 +27,15 @@ endif()
 if(NOT TALUS_HOST_HAS_RIGID)
   list(FILTER talus_style_sources EXCLUDE REGEX "/fix_rigid_small")
 endif()
+
+# The same of package BPM.
+if(NOT TALUS_HOST_HAS_BPM)
+  list(FILTER talus_style_sources EXCLUDE REGEX "_bpm_[a-z]+_talus.cpp$")
+endif()
+set(talus_bpm_sources ${talus_style_sources})
+list(FILTER talus_bpm_sources INCLUDE REGEX "_bpm_[a-z]+_talus.cpp$")
+set_source_files_properties(${talus_bpm_sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+  COMPILE_DEFINITIONS TALUS_HOST_HAS_BOND_FRAMES=${TALUS_HOST_HAS_BOND_FRAMES})
 
 # talus_add_style_objects(suffix): the objects of the styles, talus_styles${suffix}, on top of the code with that suffix.
 function(talus_add_style_objects suffix)

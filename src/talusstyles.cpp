@@ -5,6 +5,9 @@
 
 #include "base/talus_version.h"
 #include "base/vectors.h"
+#if TALUS_HOST_HAS_BPM
+#include "bond/bond_bpm_rotational_talus.h"
+#endif
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
 #include "compute/compute_coarse_grid.h"
@@ -41,11 +44,15 @@
 #include "fix/clump/fix_rigid_small_symplectic.h"
 #include "fix/clump/fix_rigid_small_talus.h"
 #endif
+#if TALUS_HOST_HAS_BPM
+#include "fix/motion/fix_nve_bpm_sphere_talus.h"
+#endif
 #if TALUS_HOST_HAS_GRANULAR
 #include "fix/wall/fix_wall_gran_region_talus.h"
 #include "fix/wall/fix_wall_gran_talus.h"
 #endif
 
+#include "bond.h"
 #include "comm.h"
 #include "command.h"
 #include "compute.h"
@@ -116,6 +123,11 @@ class Registry {
   template <typename Style> void pair(const char *name, const char *info)
   {
     add("pair", name, info, *lmp->force->pair_map, &create<Pair, Style>);
+  }
+
+  template <typename Style> void bond(const char *name, const char *info)
+  {
+    add("bond", name, info, *lmp->force->bond_map, &create<Bond, Style>);
   }
 
   template <typename Style> void compute(const char *name, const char *info)
@@ -193,6 +205,12 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
   registry.pair<PairGranHertzHistoryTalus>("gran/hertz/history/talus",
                                            TALUS_INFO "pair style gran/hertz/history/talus");
   registry.pair<PairGranularTalus>("granular/talus", TALUS_INFO "pair style granular/talus");
+#endif
+#if TALUS_HOST_HAS_BPM
+  registry.bond<BondBPMRotationalTalus>("bpm/rotational/talus",
+                                        TALUS_INFO "bond style bpm/rotational/talus");
+  registry.fix<FixNVEBPMSphereTalus>("nve/bpm/sphere/talus",
+                                     TALUS_INFO "fix style nve/bpm/sphere/talus");
 #endif
   registry.command<Version>("talus/" TALUS_VERSION, TALUS_INFO "says its version");
   registry.command<ProxyCommand>("comm_proxy", TALUS_INFO "command comm_proxy");

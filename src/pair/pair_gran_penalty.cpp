@@ -96,10 +96,7 @@ void PairGranPenalty::check_host()
     error->all(FLERR, "Pair style gran/penalty: heat is conducted between particles that have a "
                       "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'");
   const std::string problem = unsupported_settings();
-  if (!problem.empty())
-    error->all(FLERR,
-               "Pair style gran/penalty: {}: use bonds that last, and no 'comm_modify group'",
-               problem);
+  if (!problem.empty()) error->all(FLERR, "Pair style gran/penalty: {}: remove it", problem);
 }
 
 double PairGranPenalty::init_one(int i, int j)

@@ -8,6 +8,7 @@
 #define LMP_PAIR_OF_SYSTEM_H
 
 #include "laws/contact_lanes.h"
+#include "system/contacts/bonded_pairs.h"
 #include "system/host/system_pair.h"
 #include "system/step/granular_system.h"
 
@@ -34,7 +35,10 @@ struct SinglePair {
 
 template <class Base> class PairOfSystem : public Base, public Talus::SystemPair {
  protected:
-  explicit PairOfSystem(LAMMPS *lmp) : Base(lmp), system(Talus::GranularSystem::of(lmp)) {}
+  explicit PairOfSystem(LAMMPS *lmp) :
+      Base(lmp), system(Talus::GranularSystem::of(lmp)), bonded_pairs(lmp, *system)
+  {
+  }
 
   /// In init_style(): "", or what of the settings of LAMMPS would make forces wrong.
   std::string unsupported_settings() const;
@@ -59,6 +63,8 @@ template <class Base> class PairOfSystem : public Base, public Talus::SystemPair
 
  private:
   void tally(const Talus::TalliedContact &contact);
+
+  Talus::BondedPairs bonded_pairs;
 };
 
 }    // namespace LAMMPS_NS

@@ -13,7 +13,6 @@
 #include "system/host/private_members.h"
 
 #include "atom.h"
-#include "bond.h"
 #include "comm.h"
 #include "force.h"
 #include "update.h"
@@ -27,9 +26,6 @@ namespace LAMMPS_NS {
 
 template <class Base> std::string PairOfSystem<Base>::unsupported_settings() const
 {
-  const Bond *bond = this->force->bond;
-  if (bond && bond->partial_flag)
-    return "bonds may break, whose particles then touch with the same neighbor lists";
   if (Talus::sends_one_group(*this->comm)) return "'comm_modify group' leaves out proxies";
   return "";
 }
@@ -39,7 +35,9 @@ template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int v
   this->ev_init(eflag, vflag);
   const std::function<void(const Talus::TalliedContact &)> to_lammps =
       [this](const Talus::TalliedContact &c) { tally(c); };
+  bonded_pairs.follow_bonds();
   system->step().compute_contacts(this->vflag_either ? &to_lammps : nullptr);
+  bonded_pairs.are_used();
 }
 
 /* To LAMMPS, as if newton were off, an index of a ghost means that nothing is tallied for it. */

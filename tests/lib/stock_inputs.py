@@ -190,13 +190,14 @@ steps without output              through the arrays of LAMMPS: the pair style i
 """, steps=10000, every=1000, long_steps=49900, bench_steps=49900,
                error={20260704: "Cannot find fix storing granular history"}),
     StockInput("examples/bpm/pour/in.bpm.pour", """
-pair gran/hertz/history           stock: bonds may break, whose particles then touch with the same neighbor lists
-fix 1 wall/gran                   stock: the pair style is not accelerated
-fix 2 wall/gran/region            stock: the pair style is not accelerated
-fix 3 gravity                     stock: the pair style is not accelerated
-fix 5 nve/bpm/sphere              stock: no accelerated variant
-run verlet                        stock: the pair style is not accelerated
-steps without output              through the arrays of LAMMPS: the pair style is not accelerated
+pair gran/hertz/history           accelerated
+bond bpm/rotational               accelerated
+fix 1 wall/gran                   accelerated
+fix 2 wall/gran/region            accelerated
+fix 3 gravity                     accelerated
+fix 5 nve/bpm/sphere              accelerated
+run verlet                        accelerated
+steps without output              through the arrays of LAMMPS: there are bonds or long-range forces
 """, steps=5000, every=1000, long_steps=20000, bench_steps=10000),
 ]
 

@@ -49,29 +49,9 @@ def grains():
     return found
 
 
-def write_bonded(path):
-    """The same for atom_style bpm/sphere, with bonds along z in pairs."""
-    spheres = grains()
-    bonds = [(n, n + 36) for n in range(1, 37)]
-    with open(path, "w") as file:
-        file.write(f"Talus test\n\n{len(spheres)} atoms\n1 atom types\n{len(bonds)} bonds\n1 bond types\n"
-                   "4 extra bond per atom\n8 extra special per atom\n")
-        for axis, (low, high) in zip("xyz", BOX):
-            file.write(f"{low} {high} {axis}lo {axis}hi\n")
-        file.write("\nAtoms # bpm/sphere\n\n")
-        for n, s in enumerate(spheres, start=1):
-            file.write(f"{n} 1 1 {s.diameter!r} 1.0 " + " ".join(map(repr, s.x)) + "\n")
-        file.write("\nVelocities\n\n")
-        for n, s in enumerate(spheres, start=1):
-            file.write(f"{n} " + " ".join(map(repr, s.v + s.omega)) + "\n")
-        file.write("\nBonds\n\n")
-        for n, (i, j) in enumerate(bonds, start=1):
-            file.write(f"{n} 1 {i} {j}\n")
-
-
 class Scripts(SceneCase):
 
-    def compare(self, commands, np=1, tolerance=1e-8, data=None, **options):
+    def compare(self, commands, np=1, tolerance=1e-8, **options):
         """The log with the suffix, after both have been found equal."""
         settings = dict(boundary="p p f", before="", atoms="sphere", newton="on", read="read_data grains", pair=PAIR,
                         bonds="", integrator="nve/sphere", commands=commands)
@@ -80,7 +60,7 @@ class Scripts(SceneCase):
         for suffix in [], ["-sf", "talus"]:
             cwd = self.path("talus" if suffix else "stock")
             os.makedirs(cwd, exist_ok=True)
-            (data or (lambda path: write_sphere_data(path, BOX, grains())))(os.path.join(cwd, "grains"))
+            write_sphere_data(os.path.join(cwd, "grains"), BOX, grains())
             results.append(self.run_lammps(SCRIPT.format(**settings), np=np, cwd=cwd, arguments=suffix))
             frames.append(read_dump(os.path.join(cwd, "state")))
         rows, others = (thermo(r.log) for r in results)
@@ -96,13 +76,6 @@ class Scripts(SceneCase):
                 scale = max(1.0, *map(abs, a.column(column).values()))
                 self.assertLessEqual(max_difference(a, b, [column]), tolerance * scale, f"{column} at {a.step}")
         return results[1].log
-
-    def test_bonds_that_break(self):
-        log = self.compare(
-            "run 60", data=write_bonded, atoms="bpm/sphere", newton="on off", integrator="nve/bpm/sphere",
-            before="special_bonds lj 0 1 1 coul 1 1 1",
-            bonds="bond_style bpm/rotational\nbond_coeff 1 1.0 0.2 0.02 0.02 0.02 0.02 0.02 0.02 0.2 0.02 0.2 0.02")
-        self.assertIn("bonds may break", log)
 
     @mock.patch.dict(os.environ, MALLOC_PERTURB_="0")    # LAMMPS sets the forces of the group alone
     def test_proxies_of_a_group(self):
@@ -125,8 +98,8 @@ class Scripts(SceneCase):
         first = "atom_modify first rest\nread_data grains"
         penalty = "pair_style gran/penalty\npair_coeff * * hooke 20000.0 50.0 tangential multistep NULL NULL 0.5"
         for np in 1, 2:
-            self.refused("Pair style gran/penalty: 'comm_modify group' leaves out proxies: use bonds that last, and no "
-                         "'comm_modify group'", np, pair=penalty, read=first, bonds=group)
+            self.refused("Pair style gran/penalty: 'comm_modify group' leaves out proxies: remove it", np, pair=penalty,
+                         read=first, bonds=group)
             self.refused("Pair style gran/hooke/history: 'comm_modify group' leaves out proxies: it was accelerated in the "
                          "last run, so use 'suffix off'", np, ["-sf", "talus"], read=first,
                          commands=f"run 1\n{group}\nrun 1")

@@ -9,6 +9,7 @@
 #ifndef TALUS_BODY_MOTION_CLUMP_MOTION_H
 #define TALUS_BODY_MOTION_CLUMP_MOTION_H
 
+#include "body/motion/extrapolated_turn.h"
 #include "body/motion/free_rotation.h"
 
 namespace Talus {
@@ -73,14 +74,10 @@ template <class Real> struct ClumpState {
   {
     move_center(dt);
     const Vector3<Real> omega_at_first = omega_now();
-    const Quaternion<Real> whole = moved(quat, omega_at_first, dt);
-    const Quaternion<Real> half = moved(quat, omega_at_first, 0.5 * dt);
+    const Quaternion<Real> whole = turned_once(quat, omega_at_first, dt);
+    const Quaternion<Real> half = turned_once(quat, omega_at_first, 0.5 * dt);
     omega = omega_of(half.axes());
-    const Quaternion<Real> halves = moved(half, omega, 0.5 * dt);
-    const Real two = splat<Real>(2.0);
-    quat = Quaternion<Real>{two * halves.w - whole.w, two * halves.x - whole.x,
-                            two * halves.y - whole.y, two * halves.z - whole.z}
-               .normalized();
+    quat = extrapolated(whole, turned_once(half, omega, 0.5 * dt));
     axes = quat.axes();
   }
 
@@ -116,15 +113,6 @@ template <class Real> struct ClumpState {
   Vector3<Real> omega_of(const PrincipalAxes<Real> &present_axes) const
   {
     return present_axes.to_space(by_inertia(present_axes.to_body(momentum)));
-  }
-
-  /// q + h omega q/2, normalized.
-  static Quaternion<Real> moved(const Quaternion<Real> &q, const Vector3<Real> &w, double h)
-  {
-    const Quaternion<Real> rate = Quaternion<Real>{Real{}, w.x, w.y, w.z} * q;
-    const Real s = splat<Real>(0.5 * h);
-    return Quaternion<Real>{q.w + s * rate.w, q.x + s * rate.x, q.y + s * rate.y, q.z + s * rate.z}
-        .normalized();
   }
 };
 

@@ -2,10 +2,12 @@
 //
 // Which objects of LAMMPS are of Talus.
 
+#include "system/host/system_bond.h"
 #include "system/host/system_fix.h"
 #include "system/host/system_pair.h"
 #include "system/host/system_run_style.h"
 
+#include "bond.h"
 #include "fix.h"
 #include "integrate.h"
 #include "pair.h"
@@ -20,6 +22,11 @@ SystemFix *SystemFix::of(LAMMPS_NS::Fix *fix)
 const SystemPair *SystemPair::of(const LAMMPS_NS::Pair *pair)
 {
   return dynamic_cast<const SystemPair *>(pair);
+}
+
+const SystemBond *SystemBond::of(const LAMMPS_NS::Bond *bond)
+{
+  return dynamic_cast<const SystemBond *>(bond);
 }
 
 SystemRunStyle *SystemRunStyle::of(LAMMPS_NS::Integrate *style)

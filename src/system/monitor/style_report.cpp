@@ -4,6 +4,7 @@
 
 #include "base/talus_version.h"
 #include "system/host/fix_list.h"
+#include "system/host/system_bond.h"
 #include "system/host/system_fix.h"
 #include "system/host/system_pair.h"
 #include "system/host/system_run_style.h"
@@ -47,6 +48,17 @@ template <typename Styles> std::string why_stock(const Styles &styles, const std
   return "start with -sf talus (or write suffix talus)";
 }
 
+/* None without bonds. */
+
+std::string line_of_bonds(const Force &force)
+{
+  if (!force.bond) return "";
+  const auto *talus_bond = SystemBond::of(force.bond);
+  const std::string name = talus_bond ? talus_bond->plain_style() : force.bond_style;
+  return line("bond " + name,
+              how(talus_bond ? talus_bond->reason_for_stock() : why_stock(*force.bond_map, name)));
+}
+
 /* Fixes that styles of LAMMPS make for themselves. */
 
 bool is_internal(const Fix *fix)
@@ -83,7 +95,7 @@ std::string StyleReport::text(const GranularSystem &system,
                            : force->pair ? force->pair_style
                                          : "none";
   return "Talus " TALUS_VERSION "\nTalus: styles of this run\n" +
-         line("pair " + pair, pair_is(system)) + lines_of_fixes() +
+         line("pair " + pair, pair_is(system)) + line_of_bonds(*force) + lines_of_fixes() +
          line(std::string("run ") + update->integrate_style, run_style_is()) +
          line("steps without output", reason_for_arrays.empty()
                                           ? "in the records"

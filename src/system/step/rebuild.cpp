@@ -47,11 +47,17 @@ void Rebuild::renumber_pairs()
                system.pair_style().name());
   system.law_table();
   timer->stamp(Timer::MODIFY);
+  // the lists have changed, and nothing else: every contact goes on, on each side of a border as it is there
+  const bool unmoved =
+      contacts().has_pairs() && contacts().num_particles() == atom->nlocal + atom->nghost;
+  HistoryStore &histories = system.memory().pairs();
+  if (unmoved) contacts().keep_history(histories, {false, false}, false);
   contacts().release();
   const DirectExchange *direct = system.exchange().direct();
   contacts().set_work(comm->nthreads, direct && direct->overlaps());
   try {
     make_pairs();
+    if (unmoved) contacts().take_back_histories(histories);
   } catch (const std::length_error &problem) {
     error->one(FLERR, "Pair style {}: {}: use more ranks", system.pair_style().name(),
                problem.what());
@@ -66,6 +72,7 @@ void Rebuild::renumber_pairs()
   system.store()->pairs_are_numbered(contacts().particle_order());
   timer->stamp(Timer::NEIGH);
   contacts().set_own_masses(system.masses().bodies_are_rigid() ? atom->rmass : nullptr);
+  if (unmoved) return;
   system.masses().update();
   if (system.masses().needed()) comm->forward_comm(system.pair_style().get());
 }

@@ -1,0 +1,24 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Orientations of spheres that lie in arrays by particle, eight at a time and on all threads.
+
+#ifndef TALUS_BODY_MOTION_TURN_SPHERES_H
+#define TALUS_BODY_MOTION_TURN_SPHERES_H
+
+namespace Talus {
+
+/// Particles 0 ... count-1 with one of the bits `group` in `mask`; rows of three (omega, in space) and four (w, x, y, z).
+struct TurningSpheres {
+  int count;
+  const int *mask;
+  int group;
+  const double *omega;
+  double *orientation;
+};
+
+/// By extrapolated_turn() of dt; the bits of one particle do not depend on the others.
+void turn_spheres(const TurningSpheres &spheres, double dt, int threads);
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,179 @@
+/* Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE */
+
+#include "bond/bond_bpm_rotational_talus.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "fix_bond_history.h"
+#include "force.h"
+#include "lammps.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+using namespace LAMMPS_NS;
+using Talus::BondEnds;
+
+namespace {
+
+/* The places of the words in bond_coeff of damping for bending and twisting differ between hosts, and so do the members
+   that hold them; before frames there was one way to compute bonds, and no energy. */
+
+#if TALUS_HOST_HAS_BOND_FRAMES
+constexpr double sign_of_history = -1.0;    // from the lower ID to the higher one
+constexpr bool has_energy = true;
+constexpr int frame_of_particle = 1, damping_by_rates = 1;    // of frame_style, damping_style
+#else
+constexpr double sign_of_history = 1.0;
+constexpr bool has_energy = false;
+#endif
+
+}    // namespace
+
+BondBPMRotationalTalus::BondBPMRotationalTalus(LAMMPS *lmp) :
+    BondBPMRotational(lmp), system(Talus::GranularSystem::of(lmp))
+{
+}
+
+void BondBPMRotationalTalus::init_style()
+{
+  BondBPMRotational::init_style();
+  reason = find_reason();
+  listed = nullptr;
+  if (reason.empty()) bonds.set_model(model());
+}
+
+std::string BondBPMRotationalTalus::find_reason() const
+{
+  if (lmp->kokkos) return "the KOKKOS package is in use";
+  if (force->bond != this || hybrid_flag) return "bond_style hybrid";
+  if (force->newton_bond) return "newton is on for bonds: use 'newton on off'";
+  return system->pair_style().reason_against();
+}
+
+Talus::BondModel BondBPMRotationalTalus::model() const
+{
+  Talus::BondModel of_all;
+  of_all.per_length = normalize_flag != 0;
+  of_all.breaks = break_flag != 0;
+  of_all.smooth = smooth_flag != 0 && of_all.breaks;
+#if TALUS_HOST_HAS_BOND_FRAMES
+  if (frame_style != frame_of_particle) of_all.frame = Talus::BondFrame::AVERAGE;
+  if (damping_style == damping_by_rates) of_all.damping = Talus::BondDamping::RATE;
+  const double *const normal = gr, *const shear = gs, *const twist = gt, *const bend = gb;
+#else
+  const double *const normal = gnorm, *const shear = gslide, *const twist = gtwist,
+                      *const bend = groll;
+#endif
+  of_all.coeffs.resize(atom->nbondtypes + 1);
+  for (int t = 1; t <= atom->nbondtypes; t++)
+    of_all.coeffs[t] = {{Kr[t], Ks[t], Kt[t], Kb[t]},
+                        {Fcr[t], Fcs[t], Tct[t], Tcb[t]},
+                        {normal[t], shear[t], twist[t], bend[t]}};
+  return of_all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void BondBPMRotationalTalus::compute(int eflag, int vflag)
+{
+  if (!reason.empty()) return BondBPMRotational::compute(eflag, vflag);
+  const bool first = !fix_bond_history->stored_flag;
+  begin_bonds();
+  ev_init(eflag, vflag);
+  if (first || neighbor->ago == 0 || listed != neighbor->bondlist ||
+      num_listed != neighbor->nbondlist)
+    take_list(first);
+  if (bonds.count() > 0) {
+    bonds.compute({atom->x[0], atom->v[0], atom->omega[0], atom->quat[0],
+                   fix_bond_history->bondstore[0], fix_bond_history->get_ndata(), sign_of_history},
+                  update->dt, comm->nthreads);
+    break_bonds();
+    bonds.add_to(atom->f[0], atom->torque[0], comm->nthreads);
+    if (evflag) tally_bonds();
+  }
+  end_bonds();
+}
+
+/* What bonds were like at first is stored once, of all that there are; see take_list(). */
+
+void BondBPMRotationalTalus::begin_bonds()
+{
+#if TALUS_HOST_HAS_BOND_FRAMES
+  pre_compute();
+#else
+  if (fix_bond_history->stored_flag) return;
+  fix_bond_history->stored_flag = true;
+  store_data();
+#endif
+}
+
+void BondBPMRotationalTalus::end_bonds()
+{
+#if TALUS_HOST_HAS_BOND_FRAMES
+  post_compute();
+#endif
+}
+
+/* With new neighbor lists: of two particles the one with the lower ID comes first. At first LAMMPS has taken what bonds
+   are like from any image of a particle; as the list has them it is the same on any number of ranks. */
+
+void BondBPMRotationalTalus::take_list(bool first)
+{
+  listed = neighbor->bondlist;
+  num_listed = neighbor->nbondlist;
+  const tagint *const tag = atom->tag;
+  std::vector<BondEnds> found;
+  found.reserve(num_listed);
+  for (int n = 0; n < num_listed; n++) {
+    BondEnds bond{listed[n][0], listed[n][1], std::max(listed[n][2], 0)};
+    if (tag[bond.second] < tag[bond.first]) std::swap(bond.first, bond.second);
+    if (bond.type > 0 && (first || is_unset(n))) store_bond(n, bond.first, bond.second);
+    found.push_back(bond);
+  }
+  const std::vector<std::int64_t> ids(tag, tag + atom->nlocal + atom->nghost);
+  bonds.set_bonds(found, atom->nlocal, ids.data());
+}
+
+/* Of a bond that came with a particle: LAMMPS leaves its history at zero. */
+
+bool BondBPMRotationalTalus::is_unset(int n) const
+{
+  constexpr double least_length = 1e-10;    // that of LAMMPS
+  const double length = fix_bond_history->bondstore[n][0];
+  return length < least_length || std::isnan(length);
+}
+
+/* In the order of the list, by LAMMPS' method: it stores what `store/local` asks for, and takes the bond from both
+   particles; neighbor lists follow before the next forces. */
+
+void BondBPMRotationalTalus::break_bonds()
+{
+  bonds.for_each_broken([this](int n) {
+    const BondEnds bond = bonds.bond(n);
+    neighbor->bondlist[n][2] = 0;
+    process_broken(bond.first, bond.second);
+    bonds.drop(n);
+  });
+}
+
+void BondBPMRotationalTalus::tally_bonds()
+{
+  const double *const *x = atom->x;
+  for (int n = 0; n < bonds.count(); n++) {
+    if (bonds.is_dropped(n)) continue;
+    const auto [i, j, type] = bonds.bond(n);
+    const double *const f = bonds.force_on_first(n);
+    ev_tally_xyz(i, j, atom->nlocal, 0, has_energy ? bonds.energy(n) : 0.0, f[0], f[1], f[2],
+                 x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]);
+  }
+}
+
+double BondBPMRotationalTalus::memory_usage()
+{
+  return BondBPMRotational::memory_usage() + bonds.memory_usage();
+}

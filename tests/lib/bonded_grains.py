@@ -1,0 +1,45 @@
+# Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+"""Data files of bonded spheres, atom style bpm/sphere, for tests."""
+
+import itertools
+import math
+import random
+
+
+def write_bonded_data(path, box, spheres, bonds, bond_types=1):
+    """spheres: (x, v, omega, diameter, density); bonds: (type, i, j) with IDs from 1, the places in spheres."""
+    with open(path, "w") as file:
+        file.write(f"Talus test\n\n{len(spheres)} atoms\n1 atom types\n{len(bonds)} bonds\n{bond_types} bond types\n"
+                   "20 extra bond per atom\n40 extra special per atom\n")
+        for axis, (low, high) in zip("xyz", box):
+            file.write(f"{low!r} {high!r} {axis}lo {axis}hi\n")
+        file.write("\nAtoms # bpm/sphere\n\n")
+        for n, (x, _, _, diameter, density) in enumerate(spheres, start=1):
+            file.write(f"{n} 1 1 {diameter!r} {density!r} " + " ".join(map(repr, x)) + "\n")
+        file.write("\nVelocities\n\n")
+        for n, (_, v, omega, _, _) in enumerate(spheres, start=1):
+            file.write(f"{n} " + " ".join(repr(float(c)) for c in (*v, *omega)) + "\n")
+        if bonds:
+            file.write("\nBonds\n\n")
+        for n, bond in enumerate(bonds, start=1):
+            file.write(f"{n} " + " ".join(map(str, bond)) + "\n")
+
+
+def crystal(cells, spacing, origin=(0.0, 0.0, 0.0), jitter=0.05, velocity=(0.0, 0.0, 0.0), seed=1, spin=0.3):
+    """Spheres of diameter 1 near the places of a face-centered crystal with that distance of neighbors."""
+    draw, edge, spheres = random.Random(seed), spacing * math.sqrt(2.0), []
+    for cell in itertools.product(*map(range, cells)):
+        for site in (0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5):
+            x = tuple(o + edge * (c + s) + draw.uniform(-jitter, jitter) for o, c, s in zip(origin, cell, site))
+            spheres.append((x, tuple(v + draw.gauss(0, 0.02) for v in velocity),
+                            tuple(draw.gauss(0, spin) for _ in "xyz"), 1.0, 1.0))
+    return spheres
+
+
+def bonds_within(spheres, distance, first=1, types=1):
+    """(type, i, j) of all pairs that are nearer; types by turns."""
+    found = []
+    for (i, a), (j, b) in itertools.combinations(enumerate(spheres, start=first), 2):
+        if math.dist(a[0], b[0]) < distance:
+            found.append((1 + (i + j) % types, i, j))
+    return found
