@@ -69,7 +69,7 @@ class SuffixBonds(SceneCase):
         self.bonds = bonded
 
     def simulate(self, suffix=(), np=1, threads=1, text=SCENE + OUTPUT, name="run", folder=None, **options):
-        settings = dict(boundary="f f m", newton="on off", special="lj 0 1 1 coul 1 1 1", bond="bpm/rotational", words="",
+        settings = dict(boundary="s s m", newton="on off", special="lj 0 1 1 coul 1 1 1", bond="bpm/rotational", words="",
                         coeffs=f"bond_coeff * {WHOLE}", pair="gran/hooke/history 200.0 NULL 5.0 NULL 0.5 1", every=50,
                         more="", commands="run 200", again="")
         settings.update(options)
@@ -124,9 +124,9 @@ class SuffixBonds(SceneCase):
         return [tuple(map(int, row)) for frame in read_local(os.path.join(folder, "breaks")) for row in frame.rows]
 
     def breaking(self, **options):
-        return dict(words="store/local broken 1 time id1 id2", coeffs=f"bond_coeff * {BRITTLE}", every=10,
-                    more="dump b all local 1 breaks f_broken[1] f_broken[2] f_broken[3]\n"
-                         "dump_modify b format line '%.0f %.0f %.0f'", **options)
+        return {"words": "store/local broken 1 time id1 id2", "coeffs": f"bond_coeff * {BRITTLE}", "every": 10,
+                "more": "dump b all local 1 breaks f_broken[1] f_broken[2] f_broken[3]\n"
+                        "dump_modify b format line '%.0f %.0f %.0f'", **options}
 
     def test_bonds_that_break(self):
         """In the same order; from then on their particles touch, in the same step, without new neighbor lists."""
@@ -139,7 +139,7 @@ class SuffixBonds(SceneCase):
                 self.assertEqual(stock, talus)
 
     def test_same_bits(self):
-        for boundary in "f f m", "p p m":
+        for boundary in "s s m", "p p m":
             options = self.breaking(commands="run 300", boundary=boundary, every=100)
             reference = self.simulate(TALUS, **options)
             broken = sorted(self.broken(self.folder))

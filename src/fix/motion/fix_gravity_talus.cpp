@@ -16,6 +16,8 @@
 #include "update.h"
 #include "variable.h"
 
+#include <cstring>
+
 using namespace LAMMPS_NS;
 
 FixGravityTalus::FixGravityTalus(LAMMPS *lmp, int narg, char **arg) :
@@ -79,6 +81,14 @@ std::string FixGravityTalus::reason_of_variables() const
   return "";
 }
 
+/* What bonds that break store only keeps what it is given. */
+
+bool FixGravityTalus::acts_on_forces(Fix *fix) const
+{
+  return (modify->get_fix_mask(fix) & FixConst::POST_FORCE) &&
+         std::strcmp(fix->style, "STORE/LOCAL") != 0;
+}
+
 /* Weights come first in the sums: what acts on forces before this fix would act on them. */
 
 std::string FixGravityTalus::reason_of_fixes_before() const
@@ -89,7 +99,7 @@ std::string FixGravityTalus::reason_of_fixes_before() const
       if (some_frozen_move(fix->groupbit))
         return std::string("fix ") + fix->id +
                " (freeze) comes before it, so that frozen particles fall: put it behind";
-    } else if ((modify->get_fix_mask(fix) & FixConst::POST_FORCE) && !Talus::SystemFix::of(fix)) {
+    } else if (acts_on_forces(fix) && !Talus::SystemFix::of(fix)) {
       return std::string("fix ") + fix->id + " (" + fix->style + ") acts on forces before it";
     }
   }

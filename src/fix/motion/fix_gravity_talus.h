@@ -54,6 +54,7 @@ class FixGravityTalus : public FixGravity, public Talus::SystemFix {
   void say_where_it_differs();
   std::string find_reason();
   std::string reason_of_variables() const;
+  bool acts_on_forces(class Fix *fix) const;
   std::string reason_of_fixes_before() const;
   bool some_frozen_move(int frozenbits) const;
   const double *acceleration();
