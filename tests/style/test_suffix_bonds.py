@@ -167,6 +167,19 @@ class SuffixBonds(SceneCase):
                 if reader and writer:
                     self.assert_same_bits(whole, last, STATE)
 
+    def test_agglomerate(self):
+        """The example: what breaks is what is missing, and it falls into parts."""
+        example = os.path.join(os.environ["TALUS_SOURCE_DIR"], "examples", "bonds", "in.agglomerate")
+        with open(example) as file:
+            log = self.run_lammps(file.read(), np=2, variables={"radius": 3, "speed": 15.0, "steps": 3000}, arguments=TALUS).log
+        rows = thermo(log)
+        broken = sum(len(frame.rows) for frame in read_local(self.path("breaks")))
+        self.assertGreater(broken, 10)
+        self.assertEqual(rows[0]["v_bonds"] - rows[-1]["v_bonds"], broken)
+        self.assertEqual((rows[0]["c_parts"], rows[0]["v_largest"]), (1, rows[0]["Atoms"]))
+        self.assertGreater(rows[-1]["c_parts"], 1)
+        self.assertLess(rows[-1]["v_largest"], rows[0]["Atoms"])
+
     def test_what_is_stock(self):
         self.compare(1e-9, words="break no smooth no", newton="on on", commands="run 20")
         self.assertIn("stock: newton is on for bonds: use 'newton on off'", self.log)

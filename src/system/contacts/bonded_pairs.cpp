@@ -6,6 +6,7 @@
 
 #include "bond.h"
 #include "force.h"
+#include "lammps.h"
 #include "neighbor.h"
 
 namespace Talus {
@@ -24,10 +25,11 @@ void BondedPairs::are_used()
 
 BondedPairs::Bonds BondedPairs::present_bonds() const
 {
-  if (!force->bond || !force->bond->partial_flag || force->special_lj[1] == 1.0) return {};
+  const LAMMPS_NS::Force &force = *lmp->force;
+  if (!force.bond || !force.bond->partial_flag || force.special_lj[1] == 1.0) return {};
   Bonds found;
-  found.all = neighbor->nbondlist;
-  for (int b = 0; b < found.all; b++) found.broken += neighbor->bondlist[b][2] <= 0;
+  found.all = lmp->neighbor->nbondlist;
+  for (int b = 0; b < found.all; b++) found.broken += lmp->neighbor->bondlist[b][2] <= 0;
   return found;
 }
 

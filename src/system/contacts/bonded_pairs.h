@@ -7,15 +7,18 @@
 #define TALUS_SYSTEM_CONTACTS_BONDED_PAIRS_H
 
 #include "lmptype.h"
-#include "pointers.h"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
 
 namespace Talus {
 
 class GranularSystem;
 
-class BondedPairs : protected LAMMPS_NS::Pointers {
+class BondedPairs {
  public:
-  BondedPairs(LAMMPS_NS::LAMMPS *lmp, GranularSystem &owner) : Pointers(lmp), system(owner) {}
+  BondedPairs(LAMMPS_NS::LAMMPS *its_lmp, GranularSystem &owner) : lmp(its_lmp), system(owner) {}
 
   /// Before the contacts of a step are computed, behind the fixes that change neighbor lists: takes pairs from the lists
   /// again if bonds are others than at the last call of are_used(). Contacts go on. Of one rank alone.
@@ -31,6 +34,7 @@ class BondedPairs : protected LAMMPS_NS::Pointers {
   };
   Bonds present_bonds() const;
 
+  LAMMPS_NS::LAMMPS *lmp;
   GranularSystem &system;
   Bonds now, used;
   LAMMPS_NS::bigint lists_used = 0;    ///< their number
