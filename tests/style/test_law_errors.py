@@ -133,7 +133,7 @@ def law_cases():
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 delayed spinning 0.1", both, "0.1"
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.1 delayed", both, "delayed"
     yield f"{GOOD} adhesion", f"missing adhesion: {ADHESIONS}", "adhesion"
-    yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius or area", "volume"
+    yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius, area or gas", "volume"
     yield (f"{GOOD} adhesion jkr 1.0", f"unknown adhesion 'jkr', expected {ADHESIONS}", "jkr")
     yield f"{GOOD} adhesion 1.0", f"unknown adhesion '1.0', expected {ADHESIONS}", "1.0"
     yield from granular_cases()
