@@ -113,11 +113,12 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
-  const auto beyond = [&](std::int64_t pair) {
-    if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair);
+  const auto beyond = [&](std::int64_t pair, bool touched) {
+    if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair, touched);
     return has_just_ended(history.record(pair).c[3], step.advance);
   };
   const LastsBeyondContact lasts = std::cref(beyond);    // needs no memory
+  const double reach = step.scene.beyond_contact ? step.scene.laws.largest_relative_reach() : 0.0;
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.progress && begin % between_calls == 0) (*step.progress)();
@@ -127,8 +128,9 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
     to_load.begin = std::max(to_load.begin, needed);
     const int ahead = std::min(slots_ahead, to_load.end - to_load.begin);
     to_prefetch = {std::max(to_prefetch.begin, to_load.begin), to_load.begin + ahead};
-    touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
-                              &contacts[touching], step.scene.beyond_contact ? &lasts : nullptr);
+    touching +=
+        find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
+                      &contacts[touching], step.scene.beyond_contact ? &lasts : nullptr, reach);
     for (; touching - done >= block_size; done += block_size)
       compute_block<friction, history_kept>(step, done, block_size);
   }
@@ -137,12 +139,13 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   if (to_load.begin < to_load.end) step.load(to_load.begin, to_load.end);
 }
 
-/* A pair that touched and has come apart. */
+/* A pair that is apart, and may have touched. */
 
 bool ContactChunk::lasts_beyond_contact(const ContactScene &scene, const Record *position,
-                                        std::int64_t pair) const
+                                        std::int64_t pair, bool touched) const
 {
   const int row = row_of_pair(scene, pair);
+  if (!touched && !scene.laws.law(row).reaches()) return false;
   const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];
   const double pulloff_distance = scene.laws.pulloff_distance(row, i.c[3], j.c[3]);
   if (pulloff_distance == 0.0) return false;

@@ -144,8 +144,8 @@ class ContactChunk {
   };
   void clear_changes();
   template <bool friction, bool history_kept> void compute_all(const Step &step);
-  bool lasts_beyond_contact(const ContactScene &scene, const Record *position,
-                            std::int64_t pair) const;
+  bool lasts_beyond_contact(const ContactScene &scene, const Record *position, std::int64_t pair,
+                            bool touched) const;
   template <bool friction, bool history_kept>
   void compute_block(const Step &step, std::int64_t begin, int count);
   void prefetch_distant(const ParticleRecords &particles, std::size_t &next,

@@ -11,12 +11,21 @@
 
 namespace Talus {
 
+/* Nothing but heat passes between these. */
+
+bool ContactSurvey::is_gap(const ContactChunk &chunk, std::int64_t pair) const
+{
+  return of.scene.laws.law(chunk.row_of_pair(of.scene, pair)).reaches() &&
+         !(overlap_of(chunk.pairs.first[pair], chunk.pairs.second[pair]) > 0.0);
+}
+
 double ContactSurvey::count_contacts() const
 {
   double count = 0.0;
   for (const ContactChunk &chunk : of.chunks)
     chunk.for_each_contact([&](std::int64_t pair) {
-      count += of.order.share(chunk.pairs.first[pair], chunk.pairs.second[pair]);
+      if (!is_gap(chunk, pair))
+        count += of.order.share(chunk.pairs.first[pair], chunk.pairs.second[pair]);
     });
   return count;
 }
@@ -104,7 +113,9 @@ void ContactSurvey::for_each_contact(ContactData requested, const VisitContact &
 {
   if (!of.pairs_known) return;
   for (const ContactChunk &chunk : of.chunks)
-    chunk.for_each_contact([&](std::int64_t pair) { visit(report_of(chunk, pair, requested)); });
+    chunk.for_each_contact([&](std::int64_t pair) {
+      if (!is_gap(chunk, pair)) visit(report_of(chunk, pair, requested));
+    });
 }
 
 double ContactSurvey::squared_distance(int slot_a, int slot_b) const

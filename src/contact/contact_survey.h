@@ -47,6 +47,7 @@ class ContactSurvey {
                           ContactData requested) const;
   double squared_distance(int slot_a, int slot_b) const;
   double overlap_of(int slot_a, int slot_b) const;
+  bool is_gap(const ContactChunk &chunk, std::int64_t pair) const;
   template <class Value, class Result> Value largest_of_chunks(Value none, Result result) const;
 
   const ContactPipeline &of;

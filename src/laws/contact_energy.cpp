@@ -43,6 +43,7 @@ void report_contact(const ContactLaw &law, const ContactCoefficients &row,
   to.history = history;
   to.stored = EnergyByCause{};
   if (s.separated > 0.0) return;    // the overlap and the springs are those of the last step
+  if (law.reaches() && s.overlap < 0.0) return;
   to.stored.normal = stored(Stage::NORMAL) + stored(Stage::COHESION);
   if (law.whole_force_works()) to.stored.detaching = to.stored.normal;
   if (!law.has_friction()) return;

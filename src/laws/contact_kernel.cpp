@@ -132,11 +132,10 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
   add(find_last_overlap<true>);
 }
 
-/* Laws of cohesion have no history. */
+/* Laws of cohesion and heat have no history. */
 
 void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
 {
-  if (!law.bridges()) return;
   HistoryIndices all;
   for (int n = 0; n < ContactBatch::history_size; n++) all[n] = n < law.history().size ? n : -1;
   add(advance ? end_touch<true> : end_touch<false>, 0, all);
@@ -154,7 +153,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
              0, layout.impact);
   for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (needs_delay(law, stage)) kernel.add(law.normal().delay);
-    if (stage == Stage::COHESION) kernel.add_end_of_touch(law, advance);
+    if (law.acts_apart_from(stage)) kernel.add_end_of_touch(law, advance);
     kernel.add(advance ? stage_law.advancing : stage_law.reading, law.first_coefficient(stage),
                layout.of_stage[static_cast<int>(stage)]);
   });
@@ -230,14 +229,15 @@ ContactLanes<double> single_contact(const ContactLaw &law, const ContactCoeffici
   }
   for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (stage > last) return;
-    if (stage == Stage::COHESION && law.bridges()) end_touch(s);
+    if (law.acts_apart_from(stage)) end_touch(s);
     if (needs_delay(law, stage)) law.normal().one_delay(s, nullptr, nullptr, dt);
     double values[ContactBatch::history_size] = {};
     for (int n = 0; n < stage_law.odd_history + stage_law.even_history; n++)
       values[n] = kept[layout.of_stage[static_cast<int>(stage)][n]];
     stage_law.one(s, law.coefficients(stage, coefficients), values, dt);
   });
-  if (last < Stage::COHESION && law.bridges()) end_touch(s);
+  for (const Stage stage : {Stage::COHESION, Stage::HEAT})
+    if (last < stage && law.acts_apart_from(stage)) end_touch(s);
   return s;
 }
 

@@ -50,7 +50,7 @@ class ContactKernel {
 
   /// What comes first of laws of second order.
   void add_end_of_contact(const ContactLaw &law);
-  /// What comes before the stage cohesion, see end_of_touch.h.
+  /// What comes before a stage that acts where bodies are apart, see end_of_touch.h.
   void add_end_of_touch(const ContactLaw &law, bool advance);
 
   struct Step {

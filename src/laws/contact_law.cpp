@@ -120,7 +120,7 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
 static double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
                                   const ContactSize &size)
 {
-  const Stage stage = law.bridges() ? Stage::COHESION : Stage::NORMAL;
+  const Stage stage = law.reaches() ? Stage::HEAT : law.bridges() ? Stage::COHESION : Stage::NORMAL;
   const auto distance = law[stage].pulloff_distance;
   return distance ? distance(law.coefficients(stage, row), size) : 0.0;
 }

@@ -56,12 +56,26 @@ class ContactLaw {
   bool synchronized() const { return tangential().synchronized; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Contacts that have begun last while bodies are apart.
-  bool lasts_beyond_contact() const { return normal().lasts_beyond_contact || bridges(); }
+  bool lasts_beyond_contact() const
+  {
+    return normal().lasts_beyond_contact || bridges() || reaches();
+  }
   /// By a force of its own, while all others end at zero overlap.
   bool bridges() const { return cohesion().lasts_beyond_contact; }
+  /// Heat flows through gaps as well, whether bodies have touched or not, up to a pull-off distance that is in
+  /// proportion to the effective radius.
+  bool reaches() const { return heat().lasts_beyond_contact; }
+  /// The first stage that acts where bodies are apart, if it is one behind the normal law; see end_of_touch.h.
+  bool acts_apart_from(Stage stage) const
+  {
+    return stage == Stage::COHESION ? bridges() : stage == Stage::HEAT && reaches() && !bridges();
+  }
   /// The whole normal force takes work, of which stored energies are a part: else only damping does,
   /// and what is stored has all come from the elastic force.
-  bool whole_force_works() const { return lasts_beyond_contact() || normal().hysteretic; }
+  bool whole_force_works() const
+  {
+    return normal().lasts_beyond_contact || bridges() || normal().hysteretic;
+  }
   /// Angular velocities are read, and torques computed.
   bool has_friction() const { return tangential().acts || twists() || bridges(); }
   /// The tangential spring changes with the overlap while it is stretched.

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What is left of the laws between bodies that touch where these are apart and a law of cohesion acts on: nothing, and
-// no memory. Called by kernels and queries of single contacts before the stage cohesion.
+// What is left of the laws between bodies that touch where these are apart and a law of cohesion or of heat acts: nothing,
+// and no memory. Called by kernels and queries of single contacts before that stage.
 
 #ifndef TALUS_LAWS_END_OF_TOUCH_H
 #define TALUS_LAWS_END_OF_TOUCH_H

@@ -94,7 +94,7 @@ struct Law {
   bool cohesive;      ///< normal: adhesion of its own
   bool allows_cohesion;         ///< damping: may follow such a normal law
   bool lasts_beyond_contact;    ///< normal, cohesion: a contact ends at the pull-off distance,
-                                ///< not at overlap 0
+                                ///< not at overlap 0; heat: it begins there as well
   bool second_order;            ///< tangential: reads the changes of velocities, see second_order.h
   /// Tangential, rolling, twisting: the law that integrators of second order take in its place; nullptr,
   /// or nullptr is returned: there is none. `adhesive`: after a normal law with adhesion of its own.
@@ -127,7 +127,7 @@ struct Law {
   /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
   double (*modulus)(const double *c);
   /// Normal, cohesion: how far a contact that has begun lasts beyond zero overlap (length); nullptr
-  /// if not.
+  /// if not. Heat: up to where it flows.
   double (*pulloff_distance)(const double *c, const ContactSize &size);
   /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
   StageFunction find_pulloff_distance;

@@ -54,8 +54,8 @@ struct LawBase {
   /// is nothing; `adhesive`: the normal law has adhesion of its own. See second_order_laws.h.
   static constexpr std::nullptr_t order_2 = nullptr;
   static constexpr double exponent = 1.0;
-  /// Normal and cohesion: how far a contact lasts beyond zero overlap (length); only called if
-  /// lasts_beyond_contact.
+  /// Normal, cohesion and heat: how far a contact lasts beyond zero overlap (length), in proportion to the
+  /// radius of heat; only called if lasts_beyond_contact.
   template <class Row>
   static double pulloff_distance(const Row & /*c*/, const ContactSize & /*size*/)
   {
@@ -114,7 +114,8 @@ struct CohesionLaw : LawBase {
   static constexpr bool needs_radius = true;
 };
 
-/// Finds heat_flow.
+/// Finds heat_flow. If lasts_beyond_contact, also of bodies that are apart, whether they have touched or not: the
+/// stages before have then found nothing.
 struct HeatLaw : LawBase {
   static constexpr Stage stage = Stage::HEAT;
   static constexpr bool needs_radius = true;    // for the contact radius of the normal law

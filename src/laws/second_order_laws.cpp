@@ -78,6 +78,9 @@ std::string reason_against_second_order(const ContactLaw &law, const ContactCoef
   if (law.bridges())
     return std::string("has the adhesion ") + law.cohesion().name +
            ", a bridge that is made and breaks with a jump: use order 1";
+  if (law.reaches())
+    return std::string("has heat ") + law.heat().name +
+           ", which begins and ends with a jump at its reach: use order 1";
   if (!law.normal().cohesive && damps(law, row) &&
       std::isinf(law.coefficient(Stage::DAMPING, "floor", row)))
     return "has damping that may attract, whose force ends with a jump: add 'limit_damping'";

@@ -104,6 +104,18 @@ double LawTable::pulloff_distance(int row, double radius_i, double radius_j) con
   return pulloff_distance_of(laws[row], rows[row], radius_i, radius_j);
 }
 
+/* That of equal spheres: the effective radius is at most a quarter of the sum. */
+
+double LawTable::largest_relative_reach() const
+{
+  double largest = 0.0;
+  if (!any([](const ContactLaw &law) { return law.reaches(); })) return largest;
+  for (std::size_t row = 0; row < rows.size(); row++)
+    if (laws[row].reaches())
+      largest = std::max(largest, pulloff_distance_of(laws[row], rows[row], 0.5, 0.5));
+  return largest;
+}
+
 double LawTable::pulloff_distance(int row, double radius) const
 {
   return pulloff_distance_of(laws[row], rows[row], radius);

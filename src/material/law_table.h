@@ -65,6 +65,9 @@ class LawTable {
   double pulloff_distance(int row, double radius_i, double radius_j) const;
   /// The same against a flat body.
   double pulloff_distance(int row, double radius) const;
+  /// Of laws whose contacts begin beyond zero overlap: their pull-off distance over the sum of both radii is not
+  /// larger; 0 if there are none.
+  double largest_relative_reach() const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;

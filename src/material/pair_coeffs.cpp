@@ -75,6 +75,12 @@ bool PairCoeffs::conducts_heat() const
                      [](const Entry &one) { return one.set && one.spec.law.conducts_heat(); });
 }
 
+bool PairCoeffs::reaches() const
+{
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const Entry &one) { return one.set && one.spec.law.reaches(); });
+}
+
 double PairCoeffs::pulloff_distance(int i, int j, double radius_i, double radius_j) const
 {
   return pulloff_distance_of(law(i, j), coefficients(i, j), radius_i, radius_j);

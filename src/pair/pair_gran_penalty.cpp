@@ -71,6 +71,11 @@ void PairGranPenalty::init_style()
   system->setup_state().expect_new_laws();
   system->init_pair_style();
   const std::string lists = system->neighbors().reason_for_lammps_lists();
+  if (!lists.empty() && system->laws().reaches())
+    error->all(FLERR,
+               "Pair style gran/penalty: heat gas acts beyond the neighbor lists of LAMMPS, which "
+               "are used because of {}: remove that, or use 'heat radius'",
+               lists);
   if (!lists.empty() && system->range().largest_pulloff_distance() > neighbor->skin)
     error->all(FLERR,
                "Pair style gran/penalty: contacts of jkr or with a liquid bridge last beyond the "

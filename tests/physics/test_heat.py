@@ -5,59 +5,10 @@ import math
 import unittest
 
 from body_meshes import write_stl
-from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
-
-COUNT, DIAMETER, OVERLAP = 10, 0.01, 1e-4
-DENSITY, CONDUCTIVITY, CAPACITY = 2500.0, 3000.0, 300.0
-MASS = DENSITY * math.pi / 6 * DIAMETER**3
-LENGTH = COUNT * (DIAMETER - OVERLAP) - OVERLAP    # the walls are pressed in as much
-BETWEEN = 2 * CONDUCTIVITY * math.sqrt(DIAMETER / 4 * OVERLAP)    # power over difference of temperature
-AT_WALL = 2 * CONDUCTIVITY * math.sqrt(DIAMETER / 2 * OVERLAP)
-LAW = f"hertz/material 1e6 0.9 0.3 heat radius {CONDUCTIVITY}"
-SCENE = head("si", "f p p") + """
-fix therm all property/atom temperature heatflow ghost yes
-read_data spheres
-pair_style gran/penalty
-pair_coeff * * {law}
-neighbor 0.001 bin
-timestep 0.01
-set group all temperature {start}
-{more}
-fix heat all heat/flow constant {capacity}
-thermo_style custom step {columns}
-thermo_modify format float %.17g
-thermo {thermo}
-compute t all property/atom temperature
-dump grains all custom {every} grains id c_t
-dump_modify grains sort id format float %.17g
-run {steps}
-"""
-PLANES = """
-fix lo all large/body plane 0 0 0 1 0 0 contact {law} {lo}
-fix hi all large/body plane {length} 0 0 -1 0 0 contact {law} {hi}
-"""
+from heat_row import CAPACITY, CONDUCTIVITY, LAW, LENGTH, MASS, HeatRowCase
 
 
-class Heat(SceneCase):
-
-    def setUp(self):
-        start = DIAMETER / 2 - OVERLAP
-        spheres = [Sphere((start + k * (DIAMETER - OVERLAP), 0.02, 0.02), diameter=DIAMETER, density=DENSITY) for k in range(COUNT)]
-        write_sphere_data(self.path("spheres"), ((-0.01, LENGTH + 0.01), (0, 0.04), (0, 0.04)), spheres)
-
-    def heat(self, more="", start=0.0, columns="f_lo[21] f_hi[21]", steps=5000, every=5000, rows=5000, **options):
-        """Temperatures by sphere in the dumps, and rows of thermo output."""
-        log = self.run_lammps(SCENE.format(law=LAW, start=start, more=more, capacity=CAPACITY, columns=columns, steps=steps,
-                                           every=every, thermo=rows), **options).log
-        return [[row[1] for _, row in sorted(frame.atoms.items())] for frame in read_dump(self.path("grains"))], thermo(log)
-
-    def planes(self, lo, hi):
-        return PLANES.format(law=LAW, length=LENGTH, lo=lo, hi=hi)
-
-    def steady(self, lo, hi):
-        """Flow from lo to hi, and the temperatures."""
-        flow = (lo - hi) / (2 / AT_WALL + (COUNT - 1) / BETWEEN)
-        return flow, [lo - flow * (1 / AT_WALL + k / BETWEEN) for k in range(COUNT)]
+class Heat(HeatRowCase):
 
     def test_two_halves_meet(self):
         halves = "group cold id <= 5\nset group all temperature 330\nset group cold temperature 270"
@@ -103,6 +54,20 @@ fix hi all large/body plane {LENGTH} 0 0 -1 0 0 contact {LAW} temperature 10
             area = 0.04 * 0.04 / 2
             for row in rows:
                 self.assertAlmostEqual(area * (row["f_lo[1][4]"] + row["f_lo[2][4]"]), row["f_lo[21]"], delta=1e-9)
+
+    def test_softened_moduli(self):
+        """A plane and a mesh: all circles are smaller in the same ratio, and so is the flow."""
+        ratio = ((1e6 / (1 - 0.3**2)) / (7e10 / (1 - 0.22**2)))**(1 / 3)
+        law = f"{LAW} modulus 7e10 0.22"
+        write_stl(self.path("wall.stl"), [((LENGTH, 0, 0), (LENGTH, 0, 0.04), (LENGTH, 0.04, 0)),
+                                          ((LENGTH, 0.04, 0), (LENGTH, 0, 0.04), (LENGTH, 0.04, 0.04))])
+        walls = (f"fix lo all large/body plane 0 0 0 1 0 0 contact {law} temperature 50\n"
+                 f"fix hi all large/body mesh wall.stl two-sided contact {law} temperature 10\ntimestep {0.01 / ratio}\n")
+        frames, rows = self.heat(walls, pair=f"pair_style gran/penalty\npair_coeff * * {law}")
+        flow, expected = self.steady(50.0, 10.0)
+        self.assertAlmostEqual(rows[-1]["f_hi[21]"] / (ratio * flow), 1, delta=1e-8)
+        for found, value in zip(frames[-1], expected, strict=True):
+            self.assertAlmostEqual(found, value, delta=1e-7)
 
 
 if __name__ == "__main__":

@@ -141,17 +141,24 @@ class Impacts(SceneCase):
 
 class Heat(SceneCase):
 
-    def test_conduction(self):
-        lines = ends_with("heattransfer")
+    def check_flow(self, lines, real_overlap=1.0):
+        """`real_overlap`: of grains that touch in the circle through which heat flows, over that in the run."""
         overlap = 1e-3 * RADIUS
         spheres = [grain((0.0, 0.0, RADIUS - overlap / 2), (0, 0, 0)), grain((0.0, 0.0, -RADIUS + overlap / 2), (0, 0, 0))]
         self.run_lammps(BEGIN.format(dt=1e-9) + atoms(spheres, [1, 1]) + "\n".join(lines) + "\n" +
                         "set atom 1 temperature 300\nset atom 2 temperature 310\nfix move all nve/sphere/symplectic\n" +
                         "compute flow all property/atom heatflow\ndump flow all custom 1 state id c_flow\ndump_modify flow format float %.17g\nrun 1\n")
         frame, *_ = read_dump(self.path("state"))    # of the set-up: nobody clears the flow
-        expected = 10 * heat_flow((100.0, 100.0), RADIUS, RADIUS, overlap)
+        expected = 10 * heat_flow((100.0, 100.0), RADIUS, RADIUS, real_overlap * overlap)
         self.assertAlmostEqual(frame.column("c_flow")[1] / expected, 1, delta=1e-3)
         self.assertAlmostEqual(frame.column("c_flow")[2] / expected, -1, delta=1e-3)
+
+    def test_conduction(self):
+        self.check_flow(ends_with("heattransfer"))
+
+    def test_original_modulus(self):
+        """Overlaps are those of the original modulus under the same force."""
+        self.check_flow(ends_with("area_correction yes"), (5e6 / 7e10)**(2 / 3))
 
 
 class Bodies(SceneCase):

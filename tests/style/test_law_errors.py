@@ -68,6 +68,8 @@ KEYWORD_ARGUMENTS = {
     "adhesion constant": (("adhesive force F", NOT_NEGATIVE, "1.0", ("-1", "x")),),
     "adhesion dmt": (("adhesion W", NOT_NEGATIVE, "1.0", ("-1",)),),
     "heat radius": (("heat", NOT_NEGATIVE, "1.0", ("-1", "x")),), "heat area": (("heat", NOT_NEGATIVE, "1.0", ("-1",)),),
+    "heat gas": (("conductivity k of the grains", POSITIVE, "1.0", ("0", "x")), ("conductivity of the gas", POSITIVE, "0.02", ("0",)),
+                 ("radius of the column over that of the grain", POSITIVE, "0.5", ("-1",)), ("reach over the radius", POSITIVE, "0.4", ("0",))),
     "adhesion perko": (("adhesion S", NOT_NEGATIVE, "1.0", ("-1",)),),
     "vmin": (("slip speed", NOT_NEGATIVE, "1e-4", ("-1", "x")), ("roll speed", NOT_NEGATIVE, "1e-4", ("-1",)),
              ("spin speed", NOT_NEGATIVE, "1e-4", ("-1", "limit_damping"))),
@@ -131,7 +133,7 @@ def law_cases():
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 delayed spinning 0.1", both, "0.1"
     yield f"{GOOD} tangential multistep NULL NULL 0.5 rolling 0.1 spinning 0.1 delayed", both, "delayed"
     yield f"{GOOD} adhesion", f"missing adhesion: {ADHESIONS}", "adhesion"
-    yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius or area", "volume"
+    yield f"{GOOD} heat volume 1.0", "unknown heat 'volume', expected radius, area or gas", "volume"
     yield (f"{GOOD} adhesion jkr 1.0", f"unknown adhesion 'jkr', expected {ADHESIONS}", "jkr")
     yield f"{GOOD} adhesion 1.0", f"unknown adhesion '1.0', expected {ADHESIONS}", "1.0"
     yield from granular_cases()

@@ -107,7 +107,7 @@ const EightSpheres &BodyBatch::spheres_in_body()
   return seen;
 }
 
-/* Contacts that have begun may last beyond zero overlap. */
+/* Contacts that have begun may last beyond zero overlap, and those that reach begin there. */
 
 unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
 {
@@ -126,7 +126,7 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
   for (unsigned rest = bits; rest; rest &= rest - 1U) {
     const int k = __builtin_ctz(rest);
     contacts.overlap[k] -= pulloff[k];
-    if (!(contacts.overlap[k] > 0.0)) bits &= begun | ~(1U << k);
+    if (!(contacts.overlap[k] > 0.0) && !law.reaches()) bits &= begun | ~(1U << k);
   }
   return bits;
 }
@@ -225,7 +225,10 @@ void BodyBatch::flush()
   add_load();
   if (step.heat.flow && law.conducts_heat()) add_heat();
   if (step.virial) add_virials();
-  touching += filled;
+  touching +=
+      static_cast<double>(law.reaches() ? std::count_if(batch.overlap, batch.overlap + filled,
+                                                        [](double x) { return x > 0.0; })
+                                        : filled);
   filled = 0;
 }
 

@@ -4,6 +4,8 @@
 
 #include "body/contact/body_batch.h"
 
+#include <algorithm>
+
 namespace Talus {
 
 /* Contacts of eight at a time are compared with the deepest one so far. */
@@ -53,7 +55,7 @@ void BodyBatch::begin_records()
   }
 }
 
-/* Forces and torques are in space axes by now. */
+/* Forces and torques are in space axes by now. Gaps through which nothing but heat passes are no contacts. */
 
 void BodyBatch::complete_records()
 {
@@ -74,6 +76,11 @@ void BodyBatch::complete_records()
       to.history[n] = batch.history[n][lane];
     to.set_arms_of_spheres(radius[lane], 0.0);
   }
+  if (!law.reaches()) return;
+  const auto is_gap = [](const ComputedContact &one) { return !(one.report.overlap > 0.0); };
+  contacts_for_outputs.erase(
+      std::remove_if(contacts_for_outputs.begin() + before, contacts_for_outputs.end(), is_gap),
+      contacts_for_outputs.end());
 }
 
 void BodyBatch::record_parts()

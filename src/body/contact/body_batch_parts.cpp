@@ -58,7 +58,7 @@ void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high)
   unsigned told;
   const unsigned touching = task->candidates.touch_flat(task->shape, task->frame, first / width,
                                                         reaching, contacts, told);
-  const unsigned near = task->shape.may_touch_eight(in_body);
+  const unsigned near = task->shape.may_touch_eight(law.reaches() ? reaching : in_body);
   unsigned rest = bits_of_law(first, low, high);
   while (rest) {    // in their order: what is told before the next one that is not, and this one
     const unsigned to_ask = rest & ~told, next = to_ask & (0U - to_ask);
@@ -130,7 +130,8 @@ void BodyBatch::take_found(std::size_t c, const EightSpheres &in_body, int k, in
     const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
     const EndsOfContacts ends(*task, c, x, spheres.radius[k]);
     count = task->history.continue_found(c, found, count, slots_of_found, before,
-                                         law.tangential().second_order ? &ends : nullptr);
+                                         law.tangential().second_order ? &ends : nullptr,
+                                         law.reaches());
   }
   if (count) task->view.prefetch_for_contact(task->index[c]);
   for (int n = 0; n < count; n++) append(c, k, n);

@@ -182,7 +182,7 @@ struct BodyHistory::Known {
 };
 
 int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
-                                   Vector3<double> *before, const Ends *ends)
+                                   Vector3<double> *before, const Ends *ends, bool reaches)
 {
   Known known;
   known.count = counts[candidate];
@@ -207,7 +207,7 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
     left++;
   };
   for (int n = 0; n < count; n++) {
-    const bool touches = found[n].overlap > 0.0;
+    const bool touches = reaches || found[n].overlap > 0.0;
     const int best = known.nearest(found[n].normal, touches ? ~0U : last);
     if (touches || best >= 0) keep_contact(found[n], best);
   }

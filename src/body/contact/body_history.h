@@ -116,15 +116,15 @@ class BodyHistory : public ContactMemory::Holder {
   /// and fills in the slot of each; by_parts() says which of the following two does it.
   class Ends;
   int continue_found(std::size_t candidate, SurfaceContact *found, int count, std::uint32_t *slots,
-                     Vector3<double> *before, const Ends *ends)
+                     Vector3<double> *before, const Ends *ends, bool reaches = false)
   {
     if (with_parts) {
       continue_parts(candidate, found, count, slots);
       return count;
     }
-    const int left = goes_on(candidate, found, count, before)
+    const int left = goes_on(candidate, found, count, before, reaches)
                          ? count
-                         : continue_contacts(candidate, found, count, before, ends);
+                         : continue_contacts(candidate, found, count, before, ends, reaches);
     for (int k = 0; k < left; k++) slots[k] = first[candidate] + k;
     return left;
   }
@@ -134,12 +134,13 @@ class BodyHistory : public ContactMemory::Holder {
   /// Whether a candidate has one contact and had that before, or none and had none, as most; this is all
   /// that continue_contacts() would find and do.
   bool goes_on(std::size_t candidate, const SurfaceContact *found, int count,
-               Vector3<double> *before)
+               Vector3<double> *before, bool reaches)
   {
     if (counts[candidate] != count || count > 1) return false;
     if (count == 0) return true;
     Vector3<double> &normal = normals[first[candidate]];
-    if (!(found->overlap > 0.0 && dot(normal, found->normal) > least_cosine)) return false;
+    if (!((reaches || found->overlap > 0.0) && dot(normal, found->normal) > least_cosine))
+      return false;
     if (before) *before = normal;
     normal = found->normal;
     return true;
@@ -148,7 +149,8 @@ class BodyHistory : public ContactMemory::Holder {
   /// next it turns by far less than the angle between two contacts. Contacts without overlap that
   /// continue none are taken out of `found`; returns how many are left, and leaves room for
   /// LargeBodyShape::max_contacts. `before`: nullptr, or receives the normals that they had, zero of
-  /// new ones. `ends`: of laws of second order, whose contacts last for the step in which they end.
+  /// new ones. `ends`: of laws of second order, whose contacts last for the step in which they end. `reaches`: they begin
+  /// without overlap.
   class Ends {
    public:
     /// Whether a contact with this first record of its history goes on without overlap.
@@ -161,7 +163,8 @@ class BodyHistory : public ContactMemory::Holder {
     ~Ends() = default;
   };
   int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
-                        Vector3<double> *before = nullptr, const Ends *ends = nullptr);
+                        Vector3<double> *before = nullptr, const Ends *ends = nullptr,
+                        bool reaches = false);
   /// By their parts: a contact continues that with the same one. Fills in the slot of each.
   void continue_parts(std::size_t candidate, const SurfaceContact *found, int count,
                       std::uint32_t *slots)

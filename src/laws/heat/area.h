@@ -17,8 +17,8 @@ struct HeatArea : Conduction {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    s.heat_flow =
-        (3.14159265358979323846 * c.heat) * s.contact_radius * s.contact_radius * difference(s);
+    const Real a = radius_of_circle(c, s);
+    s.heat_flow = (3.14159265358979323846 * c.heat) * a * a * difference(s);
   }
 };
 

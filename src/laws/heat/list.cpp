@@ -3,6 +3,7 @@
 // The laws of stage heat.
 
 #include "laws/heat/area.h"
+#include "laws/heat/gas.h"
 #include "laws/heat/radius.h"
 #include "laws/law_definition.h"
 #include "laws/none.h"
@@ -16,6 +17,7 @@ std::vector<const Law *> heat_laws()
       &law<NoHeat>,
       &law<HeatRadius>,
       &law<HeatArea>,
+      &law<HeatGas>,
   };
 }
 

@@ -18,7 +18,7 @@ struct HeatRadius : Conduction {
   TALUS_INLINE static void compute(const Row<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
                                    double /*dt*/)
   {
-    s.heat_flow = 2.0 * c.heat * s.contact_radius * difference(s);
+    s.heat_flow = 2.0 * c.heat * radius_of_circle(c, s) * difference(s);
   }
 };
 

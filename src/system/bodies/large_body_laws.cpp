@@ -147,6 +147,9 @@ ContactSides LargeBody::sides_of(int type) const
   ContactSpec particle = body;
   for (const char *name : {"E", "nu", "e", "eta", "gamma", "mu", "limit_damping"})
     if (own->given.has(name)) particle.given[name] = own->given.value(name);
+  if (body.given.has("real E"))
+    for (const char *name : {"real E", "real nu"})
+      if (own->given.has(name)) particle.given[name] = own->given.value(name);
   if (body.law.normal().cohesive) particle.given.erase("limit_damping");
   for (const auto &[stage, name] : {std::pair(Stage::ROLLING, "mu_r"), {Stage::TWISTING, "mu_s"}})
     if (own->law[stage].reads(name)) particle.given[name] = own->given.value(name);

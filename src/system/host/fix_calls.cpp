@@ -48,6 +48,7 @@ const FixCalls::Window *FixCalls::window_of(const Fix *fix)
   static const Window windows[] = {
       {"addforce", POST_FORCE, X, F},
       {"addtorque", POST_FORCE, X | V, F},
+      {"add/heat", POST_FORCE, 0, 0},    // heat flows are in the arrays in any case
       {"aveforce", POST_FORCE, X, F},
       {"deform", END_OF_STEP, X, X},
       {"drag", POST_FORCE, X, F},

@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #if TALUS_HOST_HAS_GRANULAR
+#include "fix_add_heat.h"
 #include "fix_pour.h"
 #include "random_park.h"
 #endif
@@ -39,6 +40,9 @@ namespace Talus {
   TALUS_PRIVATE_MEMBER(tag, char *style::*, &style::member)
 
 TALUS_PRIVATE_MEMBER(Disable, int FixGravity::*, &FixGravity::disable)
+#if TALUS_HOST_HAS_GRANULAR
+TALUS_PRIVATE_NAME(AddedHeat, FixAddHeat, varstr)
+#endif
 TALUS_PRIVATE_NAME(AddedX, FixAddForce, xstr)
 TALUS_PRIVATE_NAME(AddedY, FixAddForce, ystr)
 TALUS_PRIVATE_NAME(AddedZ, FixAddForce, zstr)
@@ -144,6 +148,9 @@ void let_average_again(Fix &fix, bigint step)
 FixVariables variables_of(const Fix &fix)
 {
   FixVariables found;
+#if TALUS_HOST_HAS_GRANULAR
+  if (const auto *heat = as<FixAddHeat>(fix)) found.names = {heat->*pointer_to(AddedHeat{})};
+#endif
   if (const auto *added = as<FixAddForce>(fix)) {
     found.names = {added->*pointer_to(AddedX{}), added->*pointer_to(AddedY{}),
                    added->*pointer_to(AddedZ{}), added->*pointer_to(AddedEnergy{})};

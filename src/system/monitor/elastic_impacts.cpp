@@ -35,7 +35,8 @@ void ElasticImpacts::consider(const std::string &who, const ContactLaw &law,
   const bool rubs = law.coefficient(Stage::TANGENTIAL, "mu", c) > 0.0 &&
                     (!granular || law.coefficient(Stage::TANGENTIAL, "kt", c) > 0.0);
   // a contact with a reach ends with less energy than it begins with
-  const bool detaches = pulloff_distance_of(law, c, 2.0 * radius_eff, 2.0 * radius_eff) > 0.0;
+  const bool detaches =
+      !law.reaches() && pulloff_distance_of(law, c, 2.0 * radius_eff, 2.0 * radius_eff) > 0.0;
   if (rubs || detaches || law.normal().hysteretic ||
       damping_ratio(law, c, overlap, mass_eff, radius_eff) > little_damping) {
     loses_energy = true;
