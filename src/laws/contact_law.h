@@ -70,6 +70,11 @@ class ContactLaw {
   {
     return stage == Stage::COHESION ? bridges() : stage == Stage::HEAT && reaches() && !bridges();
   }
+  /// The stage whose law tells how far they last.
+  Stage stage_of_pulloff() const
+  {
+    return reaches() ? Stage::HEAT : bridges() ? Stage::COHESION : Stage::NORMAL;
+  }
   /// The whole normal force takes work, of which stored energies are a part: else only damping does,
   /// and what is stored has all come from the elastic force.
   bool whole_force_works() const
@@ -109,6 +114,9 @@ class ContactLaw {
  private:
   std::array<const Law *, num_stages> laws;
 };
+
+/// Of two particles with these radii, > 0.
+ContactSize size_of_pair(double radius_i, double radius_j);
 
 /// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a
 /// radius is.

@@ -65,6 +65,11 @@ struct HeatGas : Conduction {
   {
     return 2.0 * c.reach * size.radius;
   }
+  static double pulloff_cube(const GasRow<double> &c, const ContactSize &size)
+  {
+    const double distance = pulloff_distance(c, size);
+    return distance * distance * distance;
+  }
 
   template <bool advance, class Real>
   TALUS_INLINE static void compute(const GasRow<Real> &c, ContactLanes<Real> &s, Real * /*history*/,
