@@ -8,6 +8,7 @@
 #include "material/run_laws.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -144,12 +145,9 @@ bool ContactChunk::lasts_beyond_contact(const ContactScene &scene, const Record 
 {
   const int row = row_of_pair(scene, pair);
   const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];
-  const double pulloff_distance = scene.laws.pulloff_distance(row, i.c[3], j.c[3]);
-  if (pulloff_distance == 0.0) return false;
   double squared = 0.0;
   for (int d = 0; d < 3; d++) squared += (i.c[d] - j.c[d]) * (i.c[d] - j.c[d]);
-  const double apart = i.c[3] + j.c[3] + pulloff_distance;
-  return squared < apart * apart;
+  return scene.laws.lasts(row, i.c[3], j.c[3], std::sqrt(squared) - (i.c[3] + j.c[3]));
 }
 
 /* Prefetches the distant particles of pairs before `end`. */

@@ -120,7 +120,7 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
 static double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
                                   const ContactSize &size)
 {
-  const Stage stage = law.bridges() ? Stage::COHESION : Stage::NORMAL;
+  const Stage stage = law.stage_of_pulloff();
   const auto distance = law[stage].pulloff_distance;
   return distance ? distance(law.coefficients(stage, row), size) : 0.0;
 }
@@ -130,13 +130,17 @@ static double volume_of_sphere(double radius)
   return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
 }
 
+ContactSize size_of_pair(double radius_i, double radius_j)
+{
+  return {radius_i * radius_j / (radius_i + radius_j),
+          volume_of_sphere(radius_i) + volume_of_sphere(radius_j)};
+}
+
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                            double radius_j)
 {
   if (radius_i <= 0.0 || radius_j <= 0.0) return 0.0;
-  const ContactSize size{radius_i * radius_j / (radius_i + radius_j),
-                         volume_of_sphere(radius_i) + volume_of_sphere(radius_j)};
-  return pulloff_distance_of(law, row, size);
+  return pulloff_distance_of(law, row, size_of_pair(radius_i, radius_j));
 }
 
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius)

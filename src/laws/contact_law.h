@@ -59,6 +59,8 @@ class ContactLaw {
   bool lasts_beyond_contact() const { return normal().lasts_beyond_contact || bridges(); }
   /// By a force of its own, while all others end at zero overlap.
   bool bridges() const { return cohesion().lasts_beyond_contact; }
+  /// The stage whose law tells how far they last.
+  Stage stage_of_pulloff() const { return bridges() ? Stage::COHESION : Stage::NORMAL; }
   /// The whole normal force takes work, of which stored energies are a part: else only damping does,
   /// and what is stored has all come from the elastic force.
   bool whole_force_works() const { return lasts_beyond_contact() || normal().hysteretic; }
@@ -95,6 +97,9 @@ class ContactLaw {
  private:
   std::array<const Law *, num_stages> laws;
 };
+
+/// Of two particles with these radii, > 0.
+ContactSize size_of_pair(double radius_i, double radius_j);
 
 /// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a
 /// radius is.

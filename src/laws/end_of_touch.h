@@ -25,17 +25,22 @@ inline void end_touch(ContactLanes<double> &s)
 template <bool advance> void end_touch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   ContactBatch::Between &f = b.between;
-  for (int k = begin; k < end; k++) {
-    if (!(b.overlap[k] < 0.0)) continue;
+  const Vec8 zero = splat<Vec8>(0.0);
+  for (int k = begin; k < end; k += lanes) {
+    const auto apart = load8(&b.overlap[k]) < zero;
+    if (!any(apart)) continue;
+    const auto end_one = [=](double *of_lanes) {
+      store(of_lanes + k, select(apart, zero, load8(of_lanes + k)));
+    };
     for (double *one :
          {f.kn, f.kt, f.tangent_n, f.tangent_t, f.contact_radius, f.elastic, f.pulloff_force, f.gn,
           f.gt, f.normal_force, f.critical_force, f.delayed_force})
-      one[k] = 0.0;
+      end_one(one);
     for (int d = 0; d < 3; d++)
-      b.force[d][k] = b.torque_per_radius[d][k] = b.twisting_torque[d][k] = 0.0;
+      for (double *one : {b.force[d], b.torque_per_radius[d], b.twisting_torque[d]}) end_one(one);
     if constexpr (advance)
       for (const int n : in.history_index)
-        if (n >= 0) b.history[n][k] = 0.0;
+        if (n >= 0) end_one(b.history[n]);
   }
 }
 

@@ -129,6 +129,8 @@ struct Law {
   /// Normal, cohesion: how far a contact that has begun lasts beyond zero overlap (length); nullptr
   /// if not.
   double (*pulloff_distance)(const double *c, const ContactSize &size);
+  /// Its third power, which takes no root: what bodies that have come apart are asked in each step.
+  double (*pulloff_cube)(const double *c, const ContactSize &size);
   /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
   StageFunction find_pulloff_distance;
 };

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How to write a law: a struct derived from the one of its stage below, which has
+// How to write a law: a struct derived from the one of its stage in law_base.h, which has
 //
 //   name          word of scripts and restart files
 //   label         in descriptions of whole laws; the name if it is not hidden by another one
@@ -14,114 +14,20 @@
 //   mix(m)        its row for a contact of two materials
 //   stored(s, c, history)   its energy, if it stores some
 //
-// and whatever else of the struct below is not as it says there. The line &law<ThatStruct> in
+// and whatever else of that struct is not as it says there. The line &law<ThatStruct> in
 // list.cpp of the folder makes it known to all.
 
 #ifndef TALUS_LAWS_LAW_DEFINITION_H
 #define TALUS_LAWS_LAW_DEFINITION_H
 
-#include "base/simd.h"
-#include "laws/given_law.h"
-#include "laws/law.h"
+#include "laws/batch_lanes.h"
+#include "laws/law_base.h"
 
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace Talus {
-
-struct LawBase {
-  template <class Real> struct Row {
-  };
-  static constexpr CoefficientName coefficients[] = {{nullptr}};    // none
-  static Row<double> mix(const Mixing & /*m*/) { return {}; }
-  static constexpr std::nullptr_t read = nullptr;
-  template <class AnyRow>
-  static double stored(const ContactLanes<double> & /*s*/, const AnyRow & /*c*/,
-                       const double * /*history*/)
-  {
-    return 0.0;
-  }
-
-  static constexpr bool acts = true, needs_radius = false, reads_impact = false;
-  static constexpr bool reads_stiffness = false, has_spring = false, stiffens = false;
-  static constexpr bool is_midpoint = false, synchronized = false;
-  static constexpr bool holds = false, delayed = false, like_stock = false;
-  static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
-  static constexpr bool lasts_beyond_contact = false, second_order = false, hysteretic = false;
-  static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
-  static constexpr int odd_history = 0, even_history = 0;
-  /// Tangential, rolling, twisting: what integrators of second order take in its place, nullptr if there
-  /// is nothing; `adhesive`: the normal law has adhesion of its own. See second_order_laws.h.
-  static constexpr std::nullptr_t order_2 = nullptr;
-  static constexpr double exponent = 1.0;
-  /// Normal and cohesion: how far a contact lasts beyond zero overlap (length); only called if
-  /// lasts_beyond_contact.
-  template <class Row>
-  static double pulloff_distance(const Row & /*c*/, const ContactSize & /*size*/)
-  {
-    return 0.0;
-  }
-};
-
-/// Finds kn, kt, tangent_n, tangent_t, contact_radius, elastic; with adhesion of its own
-/// pulloff_force.
-struct NormalLaw : LawBase {
-  static constexpr Stage stage = Stage::NORMAL;
-  static constexpr const char *damping = "mass_velocity";
-
-  /// kn and gn without their dependence on the overlap, as Chrono's rule for the collision time of
-  /// delayed resistance takes them.
-  template <class Real> static void reduce(Real /*overlap*/, Real & /*k*/, Real & /*g*/) {}
-  template <class Row> static double modulus(const Row & /*c*/) { return 0.0; }
-};
-
-/// Finds gn, gt, normal_force and force; see finish_normal_force().
-struct DampingLaw : LawBase {
-  static constexpr Stage stage = Stage::DAMPING;
-  static constexpr const char *label = nullptr;    // descriptions name it if it was asked for
-
-  static void read_coefficient(LawReader &r) { r.set_not_negative("gn"); }
-  /// gn ~ overlap^p with an elastic force ~ overlap^elastic: p = 0, 1/4, 1/2, 1 or 3/2. Read by
-  /// laws of second order.
-  static double damping_exponent(double elastic) = delete;
-  /// The same of gt, where it is another one; below 0 if not.
-  static double dashpot_exponent(double /*elastic*/) { return -1.0; }
-};
-
-/// Finds tangential and torque_per_radius, and twisting_torque if it has lever_arms, and adds to
-/// force.
-struct TangentialLaw : LawBase {
-  static constexpr Stage stage = Stage::TANGENTIAL;
-};
-
-/// Adds to torque_per_radius, or to twisting_torque.
-struct RollingLaw : LawBase {
-  static constexpr Stage stage = Stage::ROLLING;
-};
-
-/// Adds to twisting_torque.
-struct TwistingLaw : LawBase {
-  static constexpr Stage stage = Stage::TWISTING;
-};
-
-/// Adds to force: an adhesive force that is constant while the bodies touch, times adhesive_share. Or,
-/// if lasts_beyond_contact, any force and torque_per_radius of bodies that touch or have touched:
-/// overlap is below 0 where they are apart, and the stages before have then found nothing.
-struct CohesionLaw : LawBase {
-  static constexpr Stage stage = Stage::COHESION;
-  static constexpr const char *label = "adhesion";
-  static constexpr double exponent = 0.0;
-  static constexpr bool needs_radius = true;
-};
-
-/// Finds heat_flow.
-struct HeatLaw : LawBase {
-  static constexpr Stage stage = Stage::HEAT;
-  static constexpr bool needs_radius = true;    // for the contact radius of the normal law
-};
-
-// ---- from a struct to a Law
-// ----------------------------------------------------------------------
 
 template <class L> inline constexpr int num_coefficients_of()
 {
@@ -154,122 +60,6 @@ typename L::template Row<Vec8> collect(const StageInput &in, const int *row_of_l
         return c;
       },
       CoefficientPlaces<L>{});
-}
-
-using LanesOfVector = double[3][ContactBatch::width];
-
-template <class Real> TALUS_INLINE Vector3<Real> load_vector(const LanesOfVector &v, int k)
-{
-  using In = Memory<Real>;
-  return {In::load(&v[0][k]), In::load(&v[1][k]), In::load(&v[2][k])};
-}
-
-template <class Real>
-TALUS_INLINE void store_vector(LanesOfVector &v, int k, const Vector3<Real> &value)
-{
-  Memory<Real>::store(&v[0][k], value.x);
-  Memory<Real>::store(&v[1][k], value.y);
-  Memory<Real>::store(&v[2][k], value.z);
-}
-
-/// The state of the contacts from lane k on, as many as a Real is wide. What is not used afterwards
-/// is not read: compilers see to that.
-template <class Real>
-TALUS_INLINE void load_state(const ContactBatch &b, int k, ContactLanes<Real> &s)
-{
-  using In = Memory<Real>;
-  s.normal = load_vector<Real>(b.normal, k);
-  s.overlap = In::load(&b.overlap[k]);
-  s.velocity = load_vector<Real>(b.velocity, k);
-  s.surface_rotation = load_vector<Real>(b.surface_rotation, k);
-  s.inverse_mass = In::load(&b.inverse_mass[k]);
-  s.inverse_radius = In::load(&b.inverse_radius[k]);
-  s.relative_omega = load_vector<Real>(b.relative_omega, k);
-  s.intersection_radius = In::load(&b.intersection_radius[k]);
-  s.inverse_distance = In::load(&b.inverse_distance[k]);
-  s.arm_loss = In::load(&b.arm_loss[k]);
-  s.arm_difference = In::load(&b.arm_difference[k]);
-  s.temperature_difference = In::load(&b.temperature_difference[k]);
-  s.lag = splat<Real>(b.lag);
-  s.velocity_change = load_vector<Real>(b.velocity_change, k);
-  s.rotation_change = load_vector<Real>(b.rotation_change, k);
-  s.omega_change = load_vector<Real>(b.omega_change, k);
-  s.normal_change = load_vector<Real>(b.normal_change, k);
-  s.separated = In::load(&b.separated[k]);
-  s.pulloff_distance = In::load(&b.pulloff_distance[k]);
-}
-
-/// The numbers that stages leave for each other: visit(member of ContactLanes, array of the batch)
-/// for those that the stage writes.
-template <Stage stage, class Lanes, class Batch, class Visit>
-TALUS_INLINE void visit_written(Lanes &s, Batch &b, Visit visit)
-{
-  if constexpr (stage == Stage::NORMAL) {
-    visit(s.kn, b.between.kn);
-    visit(s.kt, b.between.kt);
-    visit(s.tangent_n, b.between.tangent_n);
-    visit(s.tangent_t, b.between.tangent_t);
-    visit(s.contact_radius, b.between.contact_radius);
-    visit(s.elastic, b.between.elastic);
-    visit(s.pulloff_force, b.between.pulloff_force);
-  } else if constexpr (stage == Stage::DAMPING) {
-    visit(s.gn, b.between.gn);
-    visit(s.gt, b.between.gt);
-    visit(s.normal_force, b.between.normal_force);
-    visit(s.critical_force, b.between.critical_force);
-  }
-}
-
-/// What tangential laws of second order compute again, of the normal law.
-template <class Lanes, class Batch, class Visit>
-TALUS_INLINE void visit_normal_force(Lanes &s, Batch &b, Visit visit)
-{
-  visit(s.elastic, b.between.elastic);
-  visit(s.normal_force, b.between.normal_force);
-  visit(s.critical_force, b.between.critical_force);
-}
-
-template <class Lanes, class Batch, class Visit>
-TALUS_INLINE void visit_approach(Lanes &s, Batch &b, Visit visit)
-{
-  visit(s.normal_velocity, b.between.normal_velocity);
-  visit(s.mass, b.between.mass);
-  visit(s.radius, b.between.radius);
-  visit(s.impact_speed, b.between.impact_speed);
-  visit(s.age, b.between.age);
-}
-
-/// What the stages before `stage` have found.
-template <Stage stage, class Real>
-TALUS_INLINE void load_found(const ContactBatch &b, int k, ContactLanes<Real> &s)
-{
-  const auto load = [k](Real &value, const double *from) { value = Memory<Real>::load(from + k); };
-  visit_approach(s, b, load);
-  if (stage == Stage::NORMAL) return;
-  visit_written<Stage::NORMAL>(s, b, load);
-  if (stage == Stage::DAMPING) return;
-  visit_written<Stage::DAMPING>(s, b, load);
-  load(s.adhesive_share, b.between.adhesive_share);
-  load(s.uncorrected_force, b.between.uncorrected_force);
-  load(s.delayed_force, b.between.delayed_force);
-  s.full_normal = load_vector<Real>(b.between.full_normal, k);
-  s.force = load_vector<Real>(b.force, k);
-  if (stage == Stage::TANGENTIAL) return;
-  s.torque_per_radius = load_vector<Real>(b.torque_per_radius, k);
-  s.twisting_torque = load_vector<Real>(b.twisting_torque, k);
-}
-
-template <Stage stage, class Real>
-TALUS_INLINE void store_found(ContactBatch &b, int k, ContactLanes<Real> &s)
-{
-  visit_written<stage>(s, b, [k](Real value, double *to) { Memory<Real>::store(to + k, value); });
-  if constexpr (stage == Stage::HEAT) Memory<Real>::store(&b.heat_flow[k], s.heat_flow);
-  if constexpr (stage == Stage::DAMPING || stage == Stage::TANGENTIAL || stage == Stage::COHESION)
-    store_vector(b.force, k, s.force);
-  if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING)
-    store_vector(b.torque_per_radius, k, s.torque_per_radius);
-  if constexpr (stage == Stage::TANGENTIAL || stage == Stage::ROLLING || stage == Stage::TWISTING)
-    store_vector(b.twisting_torque, k, s.twisting_torque);
 }
 
 template <class L> inline constexpr int history_size_of = L::odd_history + L::even_history;
@@ -386,6 +176,11 @@ template <class L> double pulloff_distance_by(const double *c, const ContactSize
   return L::pulloff_distance(row_of<L>(c), size);
 }
 
+template <class L> double pulloff_cube_by(const double *c, const ContactSize &size)
+{
+  return L::pulloff_cube(row_of<L>(c), size);
+}
+
 /// Of normal laws, which ask for the radius alone. Few bodies are apart.
 template <class L>
 void run_pulloff_distance(ContactBatch &b, int begin, int end, const StageInput &in)
@@ -444,7 +239,10 @@ template <class L> constexpr Law make_law()
     law.damping_exponent = L::damping_exponent;
     law.dashpot_exponent = L::dashpot_exponent;
   }
-  if constexpr (L::lasts_beyond_contact) law.pulloff_distance = pulloff_distance_by<L>;
+  if constexpr (L::lasts_beyond_contact) {
+    law.pulloff_distance = pulloff_distance_by<L>;
+    law.pulloff_cube = pulloff_cube_by<L>;
+  }
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) law.find_pulloff_distance = run_pulloff_distance<L>;

@@ -35,11 +35,14 @@ void LawTable::finish()
     one_row = one_row && laws[r] == laws[0] &&
               std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
   }
+  lasting.clear();
   advancing.clear();
   reading.clear();
   accounting.clear();
   accounting_at_rest.clear();
   for (const ContactLaw &law : distinct) {
+    const Stage stage = law.stage_of_pulloff();
+    lasting.push_back({law[stage].pulloff_cube, law.first_coefficient(stage)});
     advancing.push_back(contact_kernel(law, one_row, true));
     reading.push_back(contact_kernel(law, one_row, false));
     accounting.push_back(Talus::accounting_kernel(law, one_row, true));
@@ -107,6 +110,15 @@ double LawTable::pulloff_distance(int row, double radius_i, double radius_j) con
 double LawTable::pulloff_distance(int row, double radius) const
 {
   return pulloff_distance_of(laws[row], rows[row], radius);
+}
+
+bool LawTable::lasts(int row, double radius_i, double radius_j, double gap) const
+{
+  const Lasting &law = lasting[index_of_row[row]];
+  if (!law.cube || radius_i <= 0.0 || radius_j <= 0.0) return false;
+  const double cube =
+      law.cube(rows[row].c + law.first_coefficient, size_of_pair(radius_i, radius_j));
+  return cube > 0.0 && gap * gap * gap < cube;
 }
 
 }    // namespace Talus

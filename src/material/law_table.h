@@ -65,6 +65,9 @@ class LawTable {
   double pulloff_distance(int row, double radius_i, double radius_j) const;
   /// The same against a flat body.
   double pulloff_distance(int row, double radius) const;
+  /// Whether a contact of two radii that has begun lasts while its surfaces are apart by `gap` (length). Asked of many
+  /// pairs in each step.
+  bool lasts(int row, double radius_i, double radius_j, double gap) const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;
@@ -75,6 +78,11 @@ class LawTable {
   std::vector<ContactLaw> laws;
   std::vector<int> index_of_row;
   std::vector<ContactLaw> distinct;
+  struct Lasting {
+    double (*cube)(const double *c, const ContactSize &size);    // see Law::pulloff_cube
+    int first_coefficient;
+  };
+  std::vector<Lasting> lasting;                                                     // by law
   std::vector<ContactKernel> advancing, reading, accounting, accounting_at_rest;    // by law
 };
 

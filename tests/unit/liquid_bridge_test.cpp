@@ -4,6 +4,7 @@
 
 #include "contacts_by_words.h"
 #include "laws/second_order_laws.h"
+#include "material/law_table.h"
 #include "shaped/point_batch.h"
 
 #include <gtest/gtest.h>
@@ -172,6 +173,31 @@ TEST(LiquidBridge, IsAllThatActsWhereBodiesAreApart)
       EXPECT_EQ(batch.work[2][k], 0.0);
     }
   }
+}
+
+// Asked in each step, without a root.
+TEST(LawTable, TellsWhetherAContactLasts)
+{
+  for (const std::string &words :
+       {dry + "willett 0.07 35 volume 1e-11", dry + "rabinovich 0.07 0 fraction 0.01",
+        std::string("jkr 1e5 20 0.3 2.0")}) {
+    for (const double other : {1e-3, 4e-3}) {
+      const Pair pair(words, 1e-3, other);
+      LawTable table;
+      table.reset(1);
+      table.set(1, 1, pair.law, pair.row);
+      table.finish();
+      for (const double part : {1e-6, 0.3, 1.0 - 1e-12, 1.0 + 1e-12, 2.0})
+        EXPECT_EQ(table.lasts(0, 1e-3, other, part * pair.reach()), part < 1.0) << words;
+      EXPECT_FALSE(table.lasts(0, 1e-3, 0.0, 0.0));
+    }
+  }
+  const Pair pair("jkr 1e5 20 0.3 0.0", 1e-3, 1e-3);
+  LawTable table;
+  table.reset(1);
+  table.set(1, 1, pair.law, pair.row);
+  table.finish();
+  EXPECT_FALSE(table.lasts(0, 1e-3, 1e-3, -1e-20));    // no reach, and the gap is rounded
 }
 
 TEST(LiquidBridge, IsRefusedWhereItCannotBe)

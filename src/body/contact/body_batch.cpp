@@ -120,9 +120,12 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
                              task->history.touched(first / width) & of_this_thread & ~bits);
   }
   if (!law.lasts_beyond_contact()) return task->shape.touches_eight(in_body, high, contacts);
-  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, high);
+  const unsigned of_this_thread = (1U << high) - (1U << low);
+  const unsigned begun = task->history.touched(first / width) & of_this_thread;
+  const unsigned asked = begun | task->shape.touches_eight(in_body, high, contacts);
+  if (!(asked & of_this_thread)) return 0;
+  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, asked & of_this_thread);
   unsigned bits = task->shape.touches_eight(reaching, high, contacts);
-  const unsigned begun = task->history.touched(first / width);
   for (unsigned rest = bits; rest; rest &= rest - 1U) {
     const int k = __builtin_ctz(rest);
     contacts.overlap[k] -= pulloff[k];
@@ -131,13 +134,16 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
   return bits;
 }
 
+/* `asked`: those that may touch or have begun; the others need no root. */
+
 const EightSpheres &BodyBatch::as_far_as_contacts_last(std::size_t first,
-                                                       const EightSpheres &in_body, int high)
+                                                       const EightSpheres &in_body, unsigned asked)
 {
   std::fill(pulloff, pulloff + width, 0.0);
   if (!law.lasts_beyond_contact()) return in_body;
   widened = in_body;
-  for (int k = 0; k < high; k++) {
+  for (; asked; asked &= asked - 1U) {
+    const int k = __builtin_ctz(asked);
     pulloff[k] = task->pulloff_distance_of(first + k, in_body.radius[k]);
     widened.radius[k] += pulloff[k];
   }

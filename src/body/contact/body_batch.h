@@ -104,7 +104,8 @@ class BodyBatch {
   void take_surface(unsigned bits);
   void look_at_eight_by_parts(std::size_t first, int low, int high);
   const EightSpheres &as_far_as_contacts_last(std::size_t first, const EightSpheres &in_body,
-                                              int high);
+                                              unsigned asked);
+  unsigned begun_of(std::size_t first, unsigned bits) const;
   bool has_begun(std::size_t c) const { return task->with_history && task->history.count(c) > 0; }
   void take_told(std::size_t first, const EightSpheres &in_body, unsigned bits, unsigned touching);
   void take_eight(std::size_t first, unsigned bits);

@@ -54,11 +54,12 @@ void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high)
   prefetch_parts(first);
   load_spheres(task->index + first, low, high);
   const EightSpheres &in_body = spheres_in_body();
-  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, high);
+  const unsigned near = task->shape.may_touch_eight(in_body), mine = (1U << high) - (1U << low);
+  const unsigned last = law.lasts_beyond_contact() ? begun_of(first, mine) | (near & mine) : 0U;
+  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, last);
   unsigned told;
   const unsigned touching = task->candidates.touch_flat(task->shape, task->frame, first / width,
                                                         reaching, contacts, told);
-  const unsigned near = task->shape.may_touch_eight(in_body);
   unsigned rest = bits_of_law(first, low, high);
   while (rest) {    // in their order: what is told before the next one that is not, and this one
     const unsigned to_ask = rest & ~told, next = to_ask & (0U - to_ask);
@@ -72,6 +73,16 @@ void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high)
     const int count = find_by_parts(first + k, reaching, k);
     if (count > 0 || (count == 0 && begun)) take_found(first + k, in_body, k, count);
   }
+}
+
+unsigned BodyBatch::begun_of(std::size_t first, unsigned bits) const
+{
+  unsigned begun = 0;
+  for (; bits; bits &= bits - 1U) {
+    const int k = __builtin_ctz(bits);
+    begun |= (has_begun(first + k) ? 1U : 0U) << k;
+  }
+  return begun;
 }
 
 /* Of these candidates of eight: without a contact, or with one. */

@@ -82,6 +82,10 @@ template <class Model> struct LiquidBridge : CohesionLaw {
   {
     return c.reach * cube_root(c.volume + c.fraction * size.volume);
   }
+  static double pulloff_cube(const BridgeRow<double> &c, const ContactSize &size)
+  {
+    return c.reach * c.reach * c.reach * (c.volume + c.fraction * size.volume);
+  }
 
   /// From overlap 0 on.
   static double stored(const ContactLanes<double> &s, const BridgeRow<double> &c,

@@ -25,8 +25,12 @@ struct Jkr : AdhesiveLaw {
   /// (3 pi^2/16 R gamma^2/E^2)^(1/3)
   static double pulloff_distance(const Row<double> &c, const ContactSize &size)
   {
+    return cube_root(pulloff_cube(c, size));
+  }
+  static double pulloff_cube(const Row<double> &c, const ContactSize &size)
+  {
     const double ratio = c.gamma / c.young;
-    return cube_root(3.0 * pi * pi / 16.0 * size.radius * ratio * ratio);
+    return 3.0 * pi * pi / 16.0 * size.radius * ratio * ratio;
   }
 
   /// The work of F_e from overlap zero on, where a^3 = 4 pi gamma R^2/E. What is left of it when
