@@ -132,14 +132,21 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
   add(find_last_overlap<true>);
 }
 
-/* Laws of cohesion have no history. */
+/* What the law of cohesion itself remembers stays. */
 
 void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
 {
   if (!law.bridges()) return;
-  HistoryIndices all;
-  for (int n = 0; n < ContactBatch::history_size; n++) all[n] = n < law.history().size ? n : -1;
-  add(advance ? end_touch<true> : end_touch<false>, 0, all);
+  const HistoryLayout layout = law.history();
+  const HistoryIndices &kept = layout.of_stage[static_cast<int>(Stage::COHESION)];
+  const int num_kept = law.cohesion().odd_history + law.cohesion().even_history;
+  HistoryIndices ending;
+  for (int n = 0; n < ContactBatch::history_size; n++) {
+    const bool ends =
+        std::find(kept.begin(), kept.begin() + num_kept, n) == kept.begin() + num_kept;
+    ending[n] = ends && n < layout.size ? n : -1;
+  }
+  add(advance ? end_touch<true> : end_touch<false>, 0, ending);
 }
 
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
