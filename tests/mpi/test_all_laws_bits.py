@@ -20,6 +20,7 @@ MULTISTEP = "tangential multistep NULL NULL 0.5"
 RESIST = "rolling 0.1 spinning 0.1"
 DELAYED = "rolling 0.1 delayed spinning 0.1 delayed"
 WET, RABINOVICH, LUDING = "adhesion willett 0.5 20", "adhesion rabinovich 0.5 40", "luding 5e3 2e4 5e3 0.05 5.0"
+EEPA = "eepa 1e5 0.6 0.3 50 0.4 1.0 1.4 2.0"
 CONSTANT, DMT, PERKO = "adhesion constant 2.0", "adhesion dmt 5.0", "adhesion perko 8.0"
 
 LAWS = [
@@ -37,7 +38,7 @@ LAWS = [
     COULOMB_M, f"{COULOMB_M} {RESIST} {CONSTANT}",
     f"{HERTZ_M} {MULTISTEP} {WET} fraction 0.01", f"{HOOKE} {RABINOVICH} volume 5e-3 viscosity 0.1 0.05",
     f"{HERTZ} tangential mindlin 3e4 1.0 0.5 rolling sds 1e3 5.0 0.1 twisting marshall {RABINOVICH} fraction 0.02",
-    f"{LUDING} {MULTISTEP}", LUDING, f"walton/braun 1e4 3e4 5.0 {MULTISTEP} {DELAYED} {WET} volume 2e-3",
+    f"{LUDING} {MULTISTEP}", LUDING, f"{EEPA} {MULTISTEP} rolling 0.05", f"walton/braun 1e4 3e4 5.0 {MULTISTEP} {DELAYED} {WET} volume 2e-3",
     f"{HOOKE} {MULTISTEP} slider", f"{HERTZ_M} {MULTISTEP} stock", f"{HERTZ_M} {MULTISTEP} midpoint {RESIST}",
     # other laws between unlike types: law 1 1, law 1 2, law 2 2
     (f"{HERTZ_M} {MULTISTEP} {RESIST}", f"{HOOKE} {CONSTANT}", f"{HOOKE_M} {MULTISTEP} {DELAYED}"),

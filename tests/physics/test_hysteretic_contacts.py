@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
-"""Contacts that remember their largest overlap, luding and walton/braun: restitution and lost energy of impacts; a body that is pressed,
-let go and pressed again, of all kinds; a run that goes on in the middle of a contact."""
+"""Contacts that remember their largest overlap, luding, walton/braun and eepa: restitution and lost energy of impacts; a body that is
+pressed, let go and pressed again, of all kinds; a run that goes on in the middle of a contact."""
 
 import math
 import unittest
@@ -13,6 +13,7 @@ R, DENSITY = 0.5, 10.0
 MASS = DENSITY * 4 / 3 * math.pi * R**3
 K1, K2, KC, PHI = 1e4, 4e4, 3e3, 0.05
 WALTON, LUDING = f"walton/braun {K1} {K2} 0", f"luding {K1} {K2} {KC} {PHI} 0"
+EEPA = "eepa 1e6 1 0.3 {gamma} 0.6 0 1.5 2"
 
 IMPACT = begin("si", law="{words}", skin=0.05, dt=1e-5) + """
 fix step all nve/sphere/symplectic start half
@@ -56,6 +57,24 @@ class Impacts(SceneCase):
         self.assertAlmostEqual(found, math.sqrt(back), delta=2e-3)
 
 
+    def test_eepa(self):
+        """The work of unloading, and of the adhesive branch, over that of loading."""
+        n, lam, chi, r_eff = 1.5, 0.6, 2, R / 2
+        k1 = 4 / 3 * 1e6 / (2 * (1 - 0.3**2)) * r_eff**2
+        k2 = k1 / (1 - lam)
+        for gamma, speed in (0, 0.3), (0, 2.0), (300, 2.0):
+            load = MASS * speed**2
+            x = (load * (n + 1) / (k1 * r_eff))**(1 / (n + 1))
+            plastic = lam * x**n
+            most = min(1.5 * math.pi * gamma * r_eff * math.sqrt(2 * plastic**(1 / n)), k2 * plastic / 2)
+            low = (plastic - most / k2)**(1 / n)
+            back = k2 * ((x**(n + 1) - low**(n + 1)) / (n + 1) - plastic * (x - low)) - most * low / (chi + 1)
+            expected = math.sqrt(back * r_eff / load)
+            found = self.impact(EEPA.format(gamma=gamma), speed, 12000)
+            print(f"\neepa, gamma {gamma}, at {speed}: restitution {found:.5f}, expected {expected:.5f}")
+            self.assertAlmostEqual(found, expected, delta=2e-3)
+
+
 PRESSED = begin("si", law=LUDING, skin=0.05, dt=1e-4) + """
 fix drive all move wiggle 0 0 {depth} 0.4
 fix w all large/body {shape} contact {law}
@@ -97,9 +116,9 @@ class Bodies(SceneCase):
         plane = self.forces("plane 0 0 0 0 0 1", "plane")
         body_meshes.write_stl(self.path("plate.stl"), body_meshes.grid(lambda i, j: (1.1 * i - 4, 1.1 * j - 4, 0.0), 7, 7))
         for shape in ("box 0 0 -1 6 6 2 outside", "rectangle 0 0 0 0 0 1 1 0 0 6 6", "mesh plate.stl"):
-            for law in LUDING, WALTON:
+            for law in LUDING, WALTON, EEPA.format(gamma=100):
                 with self.subTest(shape=shape, law=law):
-                    expected = plane if law == LUDING else self.forces("plane 0 0 0 0 0 1", "w", WALTON)
+                    expected = plane if law == LUDING else self.forces("plane 0 0 0 0 0 1", "w", law)
                     other = self.forces(shape, "other", law)
                     self.assertLess(max(abs(a[1] - b[1]) for a, b in zip(expected, other, strict=True)), 1e-6)
 

@@ -127,6 +127,7 @@ class ElasticImpacts(SceneCase):
                                 (f"hertz/material {YOUNG!r} 0.99 0.3 damping tsuji", False),
                                 (f"dmt {material} 0.0", True), (f"jkr {material} 0.0", True), (f"jkr {material} 1.0", False),
                                 ("walton/braun 1e5 2e5 0.0", False), ("luding 1e5 2e5 0.0 0.1 0.0", False),
+                                (f"eepa {YOUNG!r} 1.0 0.3 0.0 0.5 0.0 1.5 1.5", False),
                                 (f"hertz {YOUNG!r} 0.0 adhesion willett 1.0 0 fraction 0.01", False)):
             self.impacts(words, 0.199, steps=1)
             self.assertEqual(self.said() is not None, expected, words)

@@ -22,7 +22,7 @@ pair_style gran/penalty
 PLANE = "fix floor all large/body plane 0 0 -4 0 0 1 "
 GOOD = "hertz/material 1e6 0.5 0.3"
 LAWS = "hooke, hertz, flores, plaincoulomb, hooke/material, hertz/material, flores/material, " \
-       "plaincoulomb/material, dmt, jkr, luding or walton/braun"
+       "plaincoulomb/material, dmt, jkr, luding, walton/braun or eepa"
 KEYWORDS = "expected tangential, damping, rolling, spinning, twisting, adhesion, heat, vmin or limit_damping"
 TANGENTIAL = "none, dashpot, onestep, multistep, linear_nohistory, linear_history, linear_history_classic, mindlin, " \
              "mindlin/force, mindlin_rescale, mindlin_rescale/force or mindlin_classic"
@@ -50,6 +50,9 @@ ARGUMENTS = {
     "dmt": (E, GN, NU, GAMMA), "jkr": (E, GN, NU, GAMMA),
     "luding": (*LOADING, ("adhesive stiffness kc", NOT_NEGATIVE, "1e3", ("-1", "x")), ("plasticity depth phi", POSITIVE, "0.05", ("0",)), GN),
     "walton/braun": (*LOADING, GN),
+    "eepa": (E, RESTITUTION, NU, GAMMA, ("plasticity ratio lambda", r"\(a number from 0 to 0.999\)", "0.5", ("1", "-0.1")),
+             ("pull-off force f0", NOT_NEGATIVE, "0.1", ("-1", "x")), ("exponent n", r"\(a number from 1 to 3\)", "1.5", ("0.9", "4")),
+             ("exponent chi", r"\(a number from 1 to 10\)", "2.0", ("0", "inf"))),
 }
 KT = ("kt", NOT_NEGATIVE, "1e3", ("-1", "x"))
 GT = ("gt", NOT_NEGATIVE, "2.0", ("-1", "x"))
@@ -193,7 +196,7 @@ def granular_cases():
     both = "'spinning' and 'twisting' are two words for one torque: remove one"
     yield f"{GOOD} twisting sds 1 2 3 spinning 0.1", both, "spinning"
     yield f"{GOOD} spinning 0.1 twisting sds 1 2 3", both, "twisting"
-    for law in "dmt 1e6 2.0 0.3 0.1", "jkr 1e6 2.0 0.3 0.1":
+    for law in "dmt 1e6 2.0 0.3 0.1", "jkr 1e6 2.0 0.3 0.1", "eepa 1e6 0.5 0.3 0.1 0.5 0 1.5 1.5":
         name = law.split()[0]
         for damping in "tsuji", "coeff_restitution":
             yield (f"{law} damping {damping}", f"cannot use damping {damping} with a cohesive normal law, {name}", damping)
@@ -278,6 +281,7 @@ ACCEPTED = [
     "hertz/material 1e6 0.5 0.3 tangential multistep 1e6 0.5 0.5",
     "hooke/material 1e6 0.5 0.3 1.0 tangential multistep NULL 0.5 0.5",
     "luding 1e3 5e3 2e3 0.05 2.0 tangential multistep NULL NULL 0.5", "walton/braun 1e3 5e3 2.0 tangential multistep 1e3 NULL 0.5",
+    "eepa 1e6 0.5 0.3 0.1 0 0 1 1 tangential multistep 1e5 NULL 0.5", "eepa 1e6 20 0.3 0.1 0.999 2 1.2 7 damping mass_velocity",
     "luding 1e3 5e3 2e3 0.05 2.0 damping velocity", "walton/braun 1e3 5e3 2.0 adhesion constant 1.0",
     f"{GOOD} adhesion willett 0.1 20 volume 1e-3", f"{GOOD} adhesion rabinovich 0.1 20 fraction 0.01 viscosity 0.1 0.01",
     "plaincoulomb 1e3 2.0 0.0 rolling 0.1 delayed spinning 0.1 delayed adhesion perko 1.0 vmin 0 0 0 limit_damping",

@@ -2,7 +2,7 @@
 //
 // Laws that remember the largest overlap: their branches, the energy they lose, friction, restitution.
 
-#include "contacts_by_words.h"
+#include "driven_contact.h"
 #include "laws/second_order_laws.h"
 #include "shaped/point_batch.h"
 
@@ -13,49 +13,6 @@
 using namespace contacts;
 
 namespace {
-
-/// A contact that is driven: one lane of a batch, its history kept.
-class Driven {
- public:
-  explicit Driven(const Pair &pair) :
-      pair(pair), kernel(contact_kernel(pair.law, true, true)),
-      slot(pair.law.history().of_stage[static_cast<int>(Stage::NORMAL)][0])
-  {
-    batch.clear();
-  }
-  /// The repulsion at this overlap.
-  double at(double overlap)
-  {
-    const ContactState<double> s = pair.at(-overlap);
-    batch.overlap[0] = overlap;
-    batch.normal[0][0] = 1.0;
-    batch.inverse_mass[0] = s.inverse_mass;
-    batch.inverse_radius[0] = s.inverse_radius;
-    batch.inverse_distance[0] = s.inverse_distance;
-    kernel(batch, 0, lanes, &pair.row, 1e-5);
-    return batch.force[0][0];
-  }
-  /// In steps, so that all between is seen.
-  double go(double from, double to, int steps = 400)
-  {
-    double force = 0.0;
-    for (int n = 1; n <= steps; n++) force = at(from + (to - from) * n / steps);
-    return force;
-  }
-  double deepest() const { return batch.history[slot][0]; }
-  HistoryValues history() const
-  {
-    HistoryValues values{};
-    for (int n = 0; n < ContactBatch::history_size; n++) values[n] = batch.history[n][0];
-    return values;
-  }
-
- private:
-  const Pair &pair;
-  ContactKernel kernel;
-  int slot;
-  ContactBatch batch;
-};
 
 constexpr double k1 = 1e3, k2 = 5e3, kc = 2e3, phi = 0.05, radius = 1.0, r_eff = 0.5;
 const Pair luding("luding 1e3 5e3 2e3 0.05 0", radius, radius),
@@ -76,14 +33,14 @@ TEST(Luding, HasTheBranchesOfThePaper)
     EXPECT_NEAR(contact.at(x * m), k * (x * m - d0), 1e-12 * k1 * m);
   EXPECT_NEAR(contact.at(d0), 0.0, 1e-12 * k1 * m);
   EXPECT_NEAR(contact.at(0.9 * m), k * (0.9 * m - d0), 1e-12 * k1 * m);    // and back
-  EXPECT_EQ(contact.deepest(), m);
+  EXPECT_EQ(contact.kept(), m);
   // to where the adhesive branch begins
   const double lowest = k * d0 / (k + kc);
   EXPECT_NEAR(contact.at(lowest), -kc * lowest, 1e-12 * k1 * m);
-  EXPECT_NEAR(contact.deepest(), m, 1e-12 * m);
+  EXPECT_NEAR(contact.kept(), m, 1e-12 * m);
   for (const double x : {0.9, 0.5, 0.1})
     EXPECT_NEAR(contact.at(x * lowest), -kc * x * lowest, 1e-12 * k1 * m);
-  EXPECT_LT(contact.deepest(), 0.5 * m);
+  EXPECT_LT(contact.kept(), 0.5 * m);
 }
 
 TEST(Luding, LoadsAgainFromTheAdhesiveBranch)
@@ -93,7 +50,7 @@ TEST(Luding, LoadsAgainFromTheAdhesiveBranch)
   contact.go(0, m);
   const double x = 0.6 * lowest;
   EXPECT_NEAR(contact.go(m, x), -kc * x, 1e-12);
-  const double again = contact.deepest(), k = slope(again);
+  const double again = contact.kept(), k = slope(again);
   EXPECT_NEAR(k * x - (k - k1) * again, -kc * x, 1e-10);
   EXPECT_LT(again, m);
   const double y = 0.5 * (x + again);
@@ -109,7 +66,7 @@ TEST(Luding, IsElasticBeyondThePlasticDepth)
   EXPECT_NEAR(contact.go(0, plastic), k1 * plastic, 1e-9);
   for (const double x : {1.5, 2.0, 1.2})
     EXPECT_NEAR(contact.at(x * plastic), k2 * (x * plastic - d0), 1e-9);
-  EXPECT_NEAR(contact.deepest(), plastic, 1e-15);
+  EXPECT_NEAR(contact.kept(), plastic, 1e-15);
   const double x = 0.9 * d0 * k2 / (k2 + kc);
   EXPECT_NEAR(contact.at(x), -kc * x, 1e-9);
 }
@@ -166,23 +123,10 @@ TEST(WaltonBraun, HasItsBranches)
   EXPECT_NEAR(contact.go(m, 2 * m), 2 * k1 * m, 1e-10);
 }
 
-/// Speed after an impact over that before, in steps of `dt`.
-double restitution(const Pair &pair, double speed, double dt)
-{
-  Driven contact(pair);
-  double x = 0.0, v = speed;
-  for (int n = 0; n < 10000000 && (x > 0.0 || v > 0.0); n++) {
-    const double force = x > 0.0 ? contact.at(x) : 0.0;
-    v -= 2.0 * force * dt;    // 1/m = 2
-    x += v * dt;
-  }
-  return -v / speed;
-}
-
 TEST(WaltonBraun, HasARestitutionAtAllSpeeds)
 {
   for (const double speed : {1e-3, 0.1, 3.0})
-    EXPECT_NEAR(restitution(walton, speed, 2e-6), std::sqrt(k1 / k2), 3e-4) << speed;
+    EXPECT_NEAR(restitution_of(walton, speed, 2e-6), std::sqrt(k1 / k2), 3e-4) << speed;
 }
 
 // Without adhesion that of the slope at the largest overlap, sqrt(k1/k); with it less, and below some speed none.
@@ -191,12 +135,12 @@ TEST(Luding, HasARestitutionThatDependsOnSpeed)
   const Pair dry("luding 1e3 5e3 0 0.05 0", radius, radius);
   for (const double part : {0.1, 0.3, 0.6}) {
     const double m = part * plastic, speed = m * std::sqrt(2.0 * k1);
-    EXPECT_NEAR(restitution(dry, speed, 1e-5), std::sqrt(k1 / slope(m)), 1e-3) << part;
+    EXPECT_NEAR(restitution_of(dry, speed, 1e-5), std::sqrt(k1 / slope(m)), 1e-3) << part;
     // energy k1^2 m^2/(2 k) less the triangle of the two adhesive branches
     const double k = slope(m), d0 = (1 - k1 / k) * m, low = k * d0 / (k + kc);
     const double left = 0.5 * k1 * m * k1 * m / k - 0.5 * kc * low * d0;
     if (left > 0.0) {
-      EXPECT_NEAR(restitution(luding, speed, 1e-5), std::sqrt(left / (0.5 * k1 * m * m)), 2e-3)
+      EXPECT_NEAR(restitution_of(luding, speed, 1e-5), std::sqrt(left / (0.5 * k1 * m * m)), 2e-3)
           << part;
     }
   }

@@ -41,7 +41,9 @@ struct RestitutionDamping : DampingLaw {
   static double factor(const Mixing &m)
   {
     const double e = m.smallest("e");
-    if (m.a.law.normal().exponent == 1.0)
+    // which some laws are given
+    const double exponent = m.a.given.value("n", m.a.law.normal().exponent);
+    if (exponent == 1.0)
       return m.limits_damping() ? linear_damping_factor_limited(e) : linear_damping_factor(e);
     return m.limits_damping() ? hertz_damping_factor_limited(e) : hertz_damping_factor(e);
   }

@@ -4,6 +4,7 @@
 
 #include "laws/law_definition.h"
 #include "laws/normal/dmt.h"
+#include "laws/normal/eepa.h"
 #include "laws/normal/flores.h"
 #include "laws/normal/flores_material.h"
 #include "laws/normal/hertz.h"
@@ -25,6 +26,7 @@ std::vector<const Law *> normal_laws()
       &law<Hooke>,         &law<Hertz>,         &law<Flores>,         &law<PlainCoulomb>,
       &law<HookeMaterial>, &law<HertzMaterial>, &law<FloresMaterial>, &law<PlainCoulombMaterial>,
       &law<Dmt>,           &law<Jkr>,           &law<Luding>,         &law<WaltonBraun>,
+      &law<Eepa>,
   };
 }
 
