@@ -4,11 +4,7 @@
 # particles/.
 set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion laws/heat)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-<<<<<<< HEAD
-  body/contact bonds vtk packing shape shape/convex shape/superellipsoid shaped)
-=======
-  body/contact vtk fluid packing shape shape/convex shape/superellipsoid shaped)
->>>>>>> 1a196f94be2063a56f6b3b7f570994571bbce2a5
+  body/contact bonds fluid vtk packing shape shape/convex shape/superellipsoid shaped)
 
 function(talus_glob result)
   set(patterns ${ARGN})
