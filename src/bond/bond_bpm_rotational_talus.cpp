@@ -21,14 +21,17 @@ using Talus::BondEnds;
 namespace {
 
 /* The places of the words in bond_coeff of damping for bending and twisting differ between hosts, and so do the members
-   that hold them; before frames there was one way to compute bonds, and no energy. */
+   that hold them; before frames there was one way to compute bonds, and no energy. Since then LAMMPS tallies a bond under
+   tension as pressure, as no other bond. */
 
 #if TALUS_HOST_HAS_BOND_FRAMES
 constexpr double sign_of_history = -1.0;    // from the lower ID to the higher one
+constexpr double sign_of_pressure = -1.0;
 constexpr bool has_energy = true;
 constexpr int frame_of_particle = 1, damping_by_rates = 1;    // of frame_style, damping_style
 #else
 constexpr double sign_of_history = 1.0;
+constexpr double sign_of_pressure = 1.0;
 constexpr bool has_energy = false;
 #endif
 
@@ -166,10 +169,12 @@ void BondBPMRotationalTalus::tally_bonds()
   const double *const *x = atom->x;
   for (int n = 0; n < bonds.count(); n++) {
     if (bonds.is_dropped(n)) continue;
-    const auto [i, j, type] = bonds.bond(n);
+    const int i = bonds.bond(n).first, j = bonds.bond(n).second;
     const double *const f = bonds.force_on_first(n);
-    ev_tally_xyz(i, j, atom->nlocal, 0, has_energy ? bonds.energy(n) : 0.0, f[0], f[1], f[2],
-                 x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]);
+    double d[3];
+    for (int k = 0; k < 3; k++) d[k] = sign_of_pressure * (x[i][k] - x[j][k]);
+    ev_tally_xyz(i, j, atom->nlocal, 0, has_energy ? bonds.energy(n) : 0.0, f[0], f[1], f[2], d[0],
+                 d[1], d[2]);
   }
 }
 

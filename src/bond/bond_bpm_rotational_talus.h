@@ -10,8 +10,7 @@
    Falls back to the methods of LAMMPS without a pair style of Talus, in bond_style hybrid and with
    newton on for bonds: reason_for_stock().
    Other than LAMMPS' own: angles below 1e-8 are known, see bonds/rotational_bond.h; of `frame average` shear is not left
-   out where the product of both lengths and the sine of the angle is below 1e-10, and bonds under tension have a negative
-   pressure, in any frame.
+   out where the product of both lengths and the sine of the angle is below 1e-10.
    Errors: those of bond_style bpm/rotational.
 ------------------------------------------------------------------------- */
 
