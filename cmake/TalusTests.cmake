@@ -1,8 +1,9 @@
 # Helpers that register tests. Labels: the folder of the test (unit, style, physics, mpi, cli, portable) and
 # what a script asks for in comment lines such as
-#   # ctest: timeout=600 label=slow,smoke cost=60 serial procs=2
+#   # ctest: timeout=600 label=slow,smoke cost=60 serial procs=2 stay
 # cost: about how many seconds, for what takes long; such tests begin first. procs: for a script that starts several
 # ranks by other means than tests/lib/talus_testing.py, which waits for cores for each run on its own.
+# stay: LAMMPS runs in processes that stay, for scripts with many short runs (run_lammps of talus_testing.py).
 # Label hostless: no LAMMPS is run, so that one configuration is enough.
 
 if(NOT TARGET GTest::gtest)
@@ -49,7 +50,7 @@ endif()
 
 # A test that was skipped tested nothing: it must not look like one that passed.
 function(talus_set_test_properties test)
-  cmake_parse_arguments(arg "SERIAL" "TIMEOUT;PROCESSORS;COST" "LABELS" ${ARGN})
+  cmake_parse_arguments(arg "SERIAL;STAY" "TIMEOUT;PROCESSORS;COST" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -67,6 +68,9 @@ function(talus_set_test_properties test)
     LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
     FAIL_REGULAR_EXPRESSION "SKIPPED;skipped=[1-9]"
     ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
+  if(arg_STAY)
+    set_property(TEST "${test}" APPEND PROPERTY ENVIRONMENT "TALUS_STAY=1")
+  endif()
   if("slow" IN_LIST arg_LABELS AND NOT arg_COST)
     set(arg_COST 1000)
   endif()
@@ -96,6 +100,8 @@ function(talus_read_test_header file result)
     foreach(word IN LISTS words)
       if(word STREQUAL "serial")
         list(APPEND options SERIAL)
+      elseif(word STREQUAL "stay")
+        list(APPEND options STAY)
       elseif(word MATCHES "^timeout=([0-9]+)$")
         list(APPEND options TIMEOUT ${CMAKE_MATCH_1})
       elseif(word MATCHES "^procs=([0-9]+)$")
@@ -107,7 +113,7 @@ function(talus_read_test_header file result)
         list(APPEND options LABELS ${labels})
       else()
         message(FATAL_ERROR "${file}: unknown word '${word}' in its ctest line; known are "
-          "timeout=SECONDS cost=SECONDS label=NAME,... procs=N serial")
+          "timeout=SECONDS cost=SECONDS label=NAME,... procs=N serial stay")
       endif()
     endforeach()
   endforeach()
@@ -115,7 +121,7 @@ function(talus_read_test_header file result)
   set(${result} "${options}" PARENT_SCOPE)
 endfunction()
 
-# talus_add_python_test(folder/name [LABELS ...] [TIMEOUT s] [COST s] [PROCESSORS n] [SERIAL]): a plain unittest script
+# talus_add_python_test(folder/name [LABELS ...] [TIMEOUT s] [COST s] [PROCESSORS n] [SERIAL] [STAY]): a plain unittest script
 # tests/folder/name.py.
 function(talus_add_python_test test)
   get_filename_component(folder "${test}" DIRECTORY)

@@ -6,6 +6,7 @@ in PYTHONPATH, TALUS_LMP, TALUS_PLUGIN, TALUS_MPIEXEC, TALUS_SOURCE_DIR and LAMM
 a host or a plugin a script fails at import: it never skips.
 """
 
+import atexit
 import collections
 import contextlib
 import dataclasses
@@ -160,6 +161,19 @@ def _run_to_end(command, cwd, env, timeout):
         return returncode, sink.read()
 
 
+STAY = "TALUS_STAY" in os.environ and not os.environ.get("TALUS_LARGE_TESTS") and not os.environ.get("TALUS_SANITIZE")
+_pool = []
+
+
+def _run_in_a_process_that_stays(words, script, cwd, np, threads, timeout):
+    """(return code, output); processes are those of this program, and end with it (pool.py)."""
+    if not _pool:
+        import pool    # which needs what is here
+        _pool.append(pool.Pool())
+        atexit.register(_pool[0].__exit__)
+    return _pool[0].run_script(cwd, words, script, np, threads, timeout)
+
+
 def _crashed_in_finalize(returncode, log, np):
     """LAMMPS and the plugin were gone, and so said; what is left is MPI_Finalize(), in which Open MPI 4 crashes about once in a
     thousand times (its issue 10117)."""
@@ -168,10 +182,12 @@ def _crashed_in_finalize(returncode, log, np):
 
 
 def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, cwd=None,
-               timeout=DEFAULT_TIMEOUT, arguments=(), name="script"):
+               timeout=DEFAULT_TIMEOUT, arguments=(), name="script", stay=True):
     """Run an input script on np ranks; return a Result.
 
-    variables: {name: value or list of values} for -var.  arguments: more words for lmp.
+    variables: {name: value or list of values} for -var.  arguments: more words for lmp.  In scripts with the word stay in
+    their line "# ctest:" the run is one of many in a process, unless env asks for more than threads, or stay is False, and
+    but for long test runs.
     With expect_error the run must end with a LAMMPS error (not a crash), otherwise without one.
     name: stem of the files in.NAME and log.NAME written to cwd (default: a new directory, which
     the caller removes)."""
@@ -182,16 +198,22 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     if os.path.exists(log_path):
         os.remove(log_path)
 
-    command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
-    command += [LMP, "-in", f"in.{name}", "-log", f"log.{name}", "-screen", "none"]
+    words = ["-log", f"log.{name}", "-screen", "none"]
     for key, value in (variables or {}).items():
         values = value if isinstance(value, (list, tuple)) else [value]
-        command += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
-    command += [str(word) for word in arguments]
+        words += ["-var", key] + [repr(v) if isinstance(v, float) else str(v) for v in values]
+    words += [str(word) for word in arguments]
+    command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
+    command += [LMP, "-in", f"in.{name}", *words]
 
+    stays = STAY and stay and set(env or {}) <= {"OMP_NUM_THREADS"}
     env = environment(env)
     cores = 1 if expect_error else np * _threads(env)    # the start of several ranks mostly waits, and that is all there is
-    returncode, output = _launch(command, cwd, env, timeout * SLOWER, cores)
+    with cores_held(cores):
+        if stays:
+            returncode, output = _run_in_a_process_that_stays(words, f"in.{name}", cwd, np, _threads(env), timeout)
+        else:
+            returncode, output = _run_to_end(command, cwd, env, timeout * SLOWER)
     log = ""
     if os.path.exists(log_path):
         with open(log_path, errors="replace") as file:

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=200
+# ctest: timeout=200 stay
 """fix large/body: refusals of shapes, meshes and motions; pictures, files for ParaView, loads of triangles; a shape of
 one's own; regions of the host."""
 

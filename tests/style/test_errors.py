@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=30
+# ctest: cost=30 stay
 """Every refusal of pair_style gran/penalty, its pair_coeff, fix large/body and their internal fix: text,
 word that is marked, on 1 and 2 ranks, without a hang."""
 
@@ -248,7 +248,7 @@ class Errors(SceneCase):
         before = resource.getrlimit(resource.RLIMIT_AS)
         resource.setrlimit(resource.RLIMIT_AS, (1 << 30, before[1]))     # inherited by what is run
         try:
-            result = self.run_lammps(MANY_PAIRS, expect_error=True, timeout=60)
+            result = self.run_lammps(MANY_PAIRS, expect_error=True, timeout=60, stay=False)
         finally:
             resource.setrlimit(resource.RLIMIT_AS, before)
         self.assertRegex(result.log + result.output, "ERROR on proc 0: Pair style gran/penalty: not enough memory for the "

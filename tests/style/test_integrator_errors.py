@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=30
+# ctest: cost=30 stay
 """Every refusal of fix nve/sphere/symplectic: its text, the word it points at, on 1 and 2 ranks."""
 
 import re

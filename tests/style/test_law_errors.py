@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=85 timeout=900
+# ctest: cost=20 timeout=900 stay
 """Every refusal of the words of a contact law, in pair_coeff gran/penalty and in fix large/body, and of the computes
 that go with them: its text and the word it points at, on 1 and 2 ranks."""
 

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=120
+# ctest: timeout=120 stay
 """fix shape/gran: every wrong word, and all that would take its particles for spheres, ends in one message that names it."""
 
 import os

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=70 timeout=300
+# ctest: cost=70 timeout=300 stay
 """fix wall/gran/talus and wall/gran/region/talus against the stock fixes: the same bits.
 
 The contacts are computed by the model of LAMMPS, and the sums have one order: so each scene runs with the stock wall,

@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: timeout=300 stay
 """gran/penalty with coefficients by type, under hybrid styles, with the omp suffix, in two dimensions, and
 with commands between two runs: against the stock style with the same law, on 2 ranks."""
 

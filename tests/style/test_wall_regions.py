@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=20 timeout=300
+# ctest: cost=40 timeout=300 stay
 """fix wall/gran/region/talus with regions that have a formula: contacts are those that LAMMPS finds.
 
 Which grains may touch is found eight at a time; grains at random places, each of which knows a region and nothing else, are

@@ -1,7 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Sessions of LAMMPS in processes that stay: one takes some hundredths of a second, since MPI and the interpreter have started.
+"""Sessions of LAMMPS, and input scripts, in processes that stay: one takes some hundredths of a second, since MPI and the
+interpreter have started.
 
-A process makes a fresh instance of LAMMPS for each session. After a crash, a hang or an error on one rank only it is replaced, and
+A process makes a fresh instance of LAMMPS for each. After a crash, a hang or an error on one rank only it is replaced, and
 so it is after many sessions, which keeps what is left behind small."""
 
 import collections
@@ -72,7 +73,7 @@ class Process:
         self.rest = b""
         env = environment({**host_environment(), "OMP_NUM_THREADS": threads, "TMPDIR": self.folder})
         launcher = shlex.split(MPIEXEC) + ["-np", str(ranks)] if ranks > 1 else []
-        self.output = open(os.path.join(self.folder, "output"), "w+", errors="replace")
+        self.output = open(os.path.join(self.folder, "output"), "a+", errors="replace")
         self.process = subprocess.Popen([*launcher, sys.executable, WORKER, self.folder], env=env, stdin=subprocess.DEVNULL,
                                         stdout=self.output, stderr=self.output, start_new_session=True)
         kind, text = self._wait(START * SLOWER)
@@ -118,16 +119,24 @@ class Process:
         time.sleep(1.0)
 
     def _end_of_output(self):
-        self.output.seek(0)
-        said = self.output.read()
+        said = self.printed()
         frames = said.rfind("*** Process received signal")    # Open MPI's list of calls
         return f"return code {self.process.poll()}: {said[frames:][:6000] if frames >= 0 else said[-1500:]}"
 
-    def make(self, folder, seconds):
+    def make(self, job, seconds):
+        """job: see worker.py. Kind and text of the outcome."""
         self.made += 1
-        for job in self.jobs:
-            os.write(job, (folder + "\n").encode())
+        path = os.path.join(self.folder, "job.json")
+        with open(path, "w") as file:
+            json.dump(job, file)
+        for pipe in self.jobs:
+            os.write(pipe, (path + "\n").encode())
         return self._wait(seconds)
+
+    def printed(self):
+        """All that the process has printed so far."""
+        self.output.seek(0)
+        return self.output.read()
 
     def end(self):
         end_process(self.process)
@@ -176,9 +185,8 @@ class Pool:
                 for name, data in session.files.items():
                     with open(os.path.join(folder, name), "wb") as file:
                         file.write(data)
-                with open(os.path.join(folder, "session.json"), "w") as file:
-                    json.dump({"words": ["-log", "log", *session.words], "lines": session.lines}, file)
-                kind, text = process.make(folder, limit * SLOWER)
+                job = {"folder": folder, "words": ["-log", "log", *session.words], "lines": session.lines}
+                kind, text = process.make(job, limit * SLOWER)
                 outcome = Outcome(kind, text)
                 self._read(folder, session, outcome)
                 self.kinds[kind] += 1
@@ -189,6 +197,23 @@ class Pool:
                 else:
                     self._give_back(key, process)
         return outcome
+
+    def run_script(self, folder, words, script, ranks=1, threads=1, limit=LIMIT):
+        """An input script of the caller's folder: return code and what was printed, as of a process of its own. The caller holds
+        the cores."""
+        key = ranks, threads
+        process = self._take(key)
+        try:
+            before = len(process.printed())
+            kind, text = process.make({"folder": folder, "words": words, "script": script}, limit)
+            printed = process.printed()[before:]
+            if kind == HANG:
+                raise AssertionError(f"no end after {limit} s: {script} {' '.join(words)}\n{text}")
+            if kind == CRASH:    # or the command quit
+                return process.process.wait(), printed
+            return (1 if kind == ERROR else 0), printed + text
+        finally:
+            self._give_back(key, process)
 
     @staticmethod
     def _read(folder, session, outcome):

@@ -1,8 +1,8 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 """One rank of a process that makes one session of LAMMPS after the other; pool.py starts it, and knows when it crashes or hangs.
 
-A session is a folder with a file session.json: words of the command line, and lines. Lines are commands of LAMMPS, or, with an @ in
-front, calls of the coupling interface (CALLS). What a session writes stays in its folder."""
+A session is a file in JSON: its folder, words of the command line, and a script of that folder or lines. Lines are commands of
+LAMMPS, or, with an @ in front, calls of the coupling interface (CALLS). What a session writes stays in its folder."""
 
 import ctypes
 import json
@@ -127,15 +127,18 @@ def make(session, lines):
             session.call(chunk[0], chunk[1:])
 
 
-def attempt(folder):
-    """Empty, or what went wrong; whether this process can go on."""
-    os.chdir(folder)
-    with open("session.json") as file:
+def attempt(path):
+    """Empty, or what went wrong; whether other ranks wait for this one."""
+    with open(path) as file:
         job = json.load(file)
+    os.chdir(job["folder"])
     session, problem, lost = None, "", False
     try:
         session = Session(job["words"])
-        make(session, job["lines"])
+        if "script" in job:
+            session.lmp.file(job["script"])
+        else:
+            make(session, job["lines"])
     except MPIAbortException as error:    # other ranks wait for ever
         problem, lost = str(error) or "abort", True
     except Exception as error:
@@ -160,7 +163,8 @@ def main(folder):
     os.write(said, (json.dumps([rank, "", False]) + "\n").encode())
     with open(os.path.join(folder, f"jobs.{rank}")) as jobs:
         for line in jobs:
-            problem, lost = attempt(line.strip())
+            problem, lost = attempt(line.rstrip("\n"))
+            ctypes.CDLL(None).fflush(None)    # what LAMMPS has printed
             os.write(said, (json.dumps([rank, problem[:LONGEST], lost]) + "\n").encode())
 
 
