@@ -15,3 +15,5 @@
 . "$TALUS_LIB/compilers.sh"
 # shellcheck source=measure.sh
 . "$TALUS_LIB/measure.sh"
+# shellcheck source=systems.sh
+. "$TALUS_LIB/systems.sh"

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# ctest: stay
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=120
 """compute coarse/grid: sums over the grid against sums over particles and contacts, the weight of a bed, ranks, errors."""

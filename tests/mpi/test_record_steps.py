@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=30 timeout=300
+# ctest: cost=30 timeout=300 stay
 """run style verlet of Talus: steps without output are made in its own records, and it does not show.
 
 Every scene runs with the run style of LAMMPS and with that of Talus, and must have the same bits wherever

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=65 timeout=300
+# ctest: cost=65 timeout=300 stay
 """One trajectory: the same bits on any ranks, threads, grid, balance, skin, rebuild setting, sorting, restart.
 
 The scene is a heap that collapses when a wall is taken away; the reference is one uninterrupted run

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=35
+# ctest: cost=35 stay
 """Order 2 keeps one trajectory: the same bits on any ranks and threads, with and without overlap, in steps through the
 arrays of LAMMPS, in several runs, and from a restart file, on other ranks as well; also with large bodies that move."""
 

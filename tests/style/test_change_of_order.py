@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=25 label=smoke
+# ctest: cost=25 label=smoke stay
 """A run goes on with the other order of the integrator: what contacts remember goes with it."""
 
 import unittest

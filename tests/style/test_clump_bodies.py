@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=200
+# ctest: timeout=200 stay
 """Clumps against large bodies of every kind, each with an answer; masses and inertia that are given, with numbers by hand."""
 
 import itertools

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=25 timeout=400
+# ctest: cost=25 timeout=400 stay
 """fix rigid/small/talus and rigid/small/symplectic: clumps of spheres. The numbers of the style of LAMMPS, and the same
 bits on any number of ranks and threads, wherever a step is made, and through restarts."""
 

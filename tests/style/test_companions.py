@@ -1,4 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+# ctest: stay
 """gran/penalty together with other commands of the host, each time against the stock style with the same law
 in the same script, on 2 ranks."""
 

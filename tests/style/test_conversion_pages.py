@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: timeout=300 stay
 """Every line of the pages on other codes, on choosing coefficients and on output runs; both lines of a row give the same
 motion, but for the half step by which integrators differ. Pebbles of the page on clumps fall, and parcels rebound as grains do."""
 

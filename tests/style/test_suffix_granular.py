@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# ctest: stay
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: cost=55 timeout=300
 """Pair style granular with the suffix talus against the stock style: the same script, with and without -sf talus.

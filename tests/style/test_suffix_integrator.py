@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=400
+# ctest: timeout=400 stay
 """fix nve/sphere/talus, gravity/talus and freeze/talus: the numbers of the styles of LAMMPS, to rounding, and the same
 bits wherever a step is made: in Talus' records or in the arrays of LAMMPS."""
 
