@@ -33,6 +33,9 @@ class Packaging(unittest.TestCase):
         self.assertIn(f"\nversion: {VERSION}\n", read("CITATION.cff"))
         self.assertIn(f'version("{VERSION}")', read("packaging", "spack", "packages", "talus", "package.py"))
         self.assertTrue(glob.glob(os.path.join(ROOT, "packaging", "easybuild", f"Talus-{VERSION}-*.eb")))
+        self.assertIn(f'\nversion = "{VERSION}"\n', read("python", "pyproject.toml"))
+        for name in f"talus_{VERSION}_amd64.deb", f"talus-{VERSION}-x86_64.tar.xz", f"`talus/{VERSION}`":
+            self.assertIn(name, read("doc", "install.md"))
 
     def test_recipes_are_python(self):
         tree = ast.parse(read("packaging", "spack", "packages", "talus", "package.py"))

@@ -14,7 +14,7 @@ class Talus(CMakePackage):
 
     license("GPL-2.0-only")
 
-    version("1.0.0")
+    version("1.1.0")
 
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
