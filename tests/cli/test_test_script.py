@@ -60,6 +60,13 @@ class Configurations(ScriptCase):
         for part in "tests/styles", SECOND, "scripts/test --all":
             self.assertIn(part, said[0])
 
+    def test_in_ci_the_second_host_is_built(self):
+        result, calls = self.run_test(CI="true")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertNotIn("left out", result.stdout)
+        second = f"build-{SECOND}-smallbig"
+        self.assertEqual(self.of_ctest(calls), [(BITS, ""), (second, "-L smoke"), (second, "-L dem"), ("build", "-LE slow")])
+
     def test_a_host_in_the_cache_runs_smoke_tests_and_cases_of_styles(self):
         host = self.run_command(["bash", "-c", f'. "{ROOT}/scripts/lib/all.sh"; released_host_dir {SECOND} smallbig']).stdout
         for name in "stamp", "build/liblammps.so":
