@@ -71,6 +71,7 @@ neighbor 0.2 bin
 neigh_modify exclude molecule/intra all
 timestep 0.001
 fix move all rigid/small/symplectic molecule
+thermo_style custom step
 thermo 0
 """
 
