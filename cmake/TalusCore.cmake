@@ -4,7 +4,7 @@
 # particles/.
 set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion laws/heat)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-  body/contact vtk packing shape shape/convex shape/superellipsoid shaped)
+  body/contact vtk fluid packing shape shape/convex shape/superellipsoid shaped)
 
 function(talus_glob result)
   set(patterns ${ARGN})

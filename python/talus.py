@@ -261,6 +261,66 @@ class Partner:
         found = [_array(arrays[name], *((nz, ny, nx, 3) if columns[name] == 3 else (nz, ny, nx))) for name in names]
         return found[0] if len(found) == 1 else found
 
+    # ---- grains in a fluid that the partner computes; arrays have what the cells of this rank have
+
+    def fluid_grid(self, lo, hi, cells, kernel="tophat 0", own=None):
+        """A Fluid whose cells are boxes of a grid. own: those of this rank, (first, last) with three numbers each, to before
+        last; None: all cells, on every rank (or where the partner lives). Arrays are z, y, x."""
+        ints = ctypes.c_int * 3
+        first, last = (None, None) if own is None else (ints(*map(int, own[0])), ints(*map(int, own[1])))
+        whole = ints(*map(int, cells)) if self.lives_here else None
+        self._call("set_fluid_grid", ctypes.c_char_p(kernel.encode()), _doubles(lo, 3), _doubles(hi, 3), whole, first, last)
+        if not self.lives_here:
+            return Fluid(self, (0,))
+        first, last = ((0, 0, 0), whole) if own is None else (first, last)
+        return Fluid(self, tuple(last[d] - first[d] for d in (2, 1, 0)))
+
+    def fluid_cells(self, x=(), volume=(), kernel="tophat 0"):
+        """A Fluid whose cells are any, those of this rank: centers (n x 3) and volumes (n)."""
+        numbers = _doubles(volume)
+        n = len(numbers) if numbers is not None else 0
+        self._call("set_fluid_cells", ctypes.c_char_p(kernel.encode()), ctypes.c_int64(n), _doubles(x, 3 * n), numbers)
+        return Fluid(self, (n if self.lives_here else 0,))
+
+
+class Fluid:
+    """Cells of a fluid that a Partner computes; of one that lives on one rank, the others pass and get None."""
+
+    def __init__(self, partner, shape):
+        self.partner, self.shape = partner, shape
+        self.num_cells = 1
+        for count in shape:
+            self.num_cells *= count
+
+    def drag_law(self, law, density, viscosity):
+        """The law of drag with its words, density and dynamic viscosity of the fluid."""
+        self.partner._call("set_drag_law", ctypes.c_char_p(law.encode()), ctypes.c_double(density), ctypes.c_double(viscosity))
+
+    def grains(self, *names):
+        """In the cells what is named, solid (fraction), velocity (3), or exchange (impulse of drag on grains per volume since it
+        was asked for last, 3): one array, or a list of several."""
+        columns = {"solid": 1, "velocity": 3, "exchange": 3}
+        for name in names:
+            if name not in columns:
+                raise ValueError(f"'{name}' is none of {', '.join(columns)}")
+        arrays = {name: (ctypes.c_double * (self.num_cells * columns[name]))() for name in names}
+        self.partner._call("get_grains", *(arrays.get(name) for name in columns))
+        if not self.partner.lives_here:
+            return None
+        found = [self._shaped(arrays[name], columns[name]) for name in names]
+        return found[0] if len(found) == 1 else found
+
+    def put(self, velocity, pressure_gradient=None, gravity=None):
+        """Fields of the fluid in the cells, 3 each; gravity: acceleration (3) from which buoyancy is found. Returns the sums of
+        coefficients of drag per volume."""
+        n = self.num_cells
+        coefficient = (ctypes.c_double * n)()
+        self.partner._call("put_fluid", _doubles(velocity, 3 * n), _doubles(pressure_gradient, 3 * n), _doubles(gravity, 3), coefficient)
+        return self._shaped(coefficient, 1) if self.partner.lives_here else None
+
+    def _shaped(self, numbers, columns):
+        return _array(numbers, *self.shape, columns) if columns > 1 else _array(numbers, *self.shape)
+
 
 class Body:
     """A large body (fix large/body) of a Partner."""

@@ -65,7 +65,23 @@
   CALL(get_field,                                                                                  \
        (talus_partner * partner, const double *lo, const double *hi, const int *cells,             \
         double width, double *solid, double *momentum, double *exchange),                          \
-       (partner, lo, hi, cells, width, solid, momentum, exchange))
+       (partner, lo, hi, cells, width, solid, momentum, exchange))                                 \
+  CALL(set_fluid_grid,                                                                             \
+       (talus_partner * partner, const char *kernel, const double *lo, const double *hi,           \
+        const int *cells, const int *first, const int *last),                                      \
+       (partner, kernel, lo, hi, cells, first, last))                                              \
+  CALL(set_fluid_cells,                                                                            \
+       (talus_partner * partner, const char *kernel, int64_t n, const double *x,                   \
+        const double *volume),                                                                     \
+       (partner, kernel, n, x, volume))                                                            \
+  CALL(set_drag_law, (talus_partner * partner, const char *law, double density, double viscosity), \
+       (partner, law, density, viscosity))                                                         \
+  CALL(get_grains, (talus_partner * partner, double *solid, double *velocity, double *exchange),   \
+       (partner, solid, velocity, exchange))                                                       \
+  CALL(put_fluid,                                                                                  \
+       (talus_partner * partner, const double *velocity, const double *pressure_gradient,          \
+        const double *gravity, double *coefficient),                                               \
+       (partner, velocity, pressure_gradient, gravity, coefficient))
 
 namespace Talus {
 

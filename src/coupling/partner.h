@@ -28,6 +28,8 @@ class Refusal : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct PartnerFluid;
+
 /// The ranks of a LAMMPS instance, with messages of their own: not those of LAMMPS. All partners of the instance
 /// share them, so that ranks notice that they call different ones.
 class OwnRanks {
@@ -72,6 +74,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
 
   // ---- within a call, in the same order on all ranks
 
+  /// Where it lives: a rank, or TALUS_ALL_RANKS.
+  int home() const { return root; }
   /// Arguments of this rank count, and results are wanted.
   bool lives_here() const;
   /// What was given, on all ranks. Throws Refusal unless it is there, the same wherever the partner
@@ -106,6 +110,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
   void set_up_if_lost();
   /// The next advance begins with the set-up of a run.
   bool needs_set_up = true;
+  /// Cells and laws of a fluid that it computes; nullptr: none.
+  std::shared_ptr<Talus::PartnerFluid> fluid;
   /// To be done when the partner is closed, once for each name: what it has asked the system to do for it
   /// ends.
   void at_close(const std::string &name, const std::function<void(Talus::GranularSystem &)> &work)

@@ -153,6 +153,34 @@ int talus_get_particles(talus_partner *partner, int64_t n, const int64_t *id, do
 int talus_get_field(talus_partner *partner, const double *lo, const double *hi, const int *cells,
                     double width, double *solid, double *momentum, double *exchange);
 
+/* ---- grains in a fluid that the partner computes: doc/coupling_fluid.md ------------------------------ */
+
+/* In these calls a partner on all ranks is divided among them: every rank gives and gets what its own cells have. Of one
+   that lives on one rank, that has all. kernel: "tophat W" or "gaussian W" (W: distance units), and perhaps
+   "group ID": the grains that are in the fluid. Units must be consistent: si, cgs, lj, micro, nano. */
+
+/* Cells are boxes of a grid: its corners, cells along x, y, z; this rank has those from first to before last (3 each), x
+   runs fastest. Every cell has one owner. A rank with NULL has none; NULL on all: all have all, arguments and results of
+   all calls are the same on all ranks. */
+int talus_set_fluid_grid(talus_partner *partner, const char *kernel, const double *lo,
+                         const double *hi, const int *cells, const int *first, const int *last);
+/* Cells of any mesh: n of this rank, their centers (3 each) and volumes (> 0). */
+int talus_set_fluid_cells(talus_partner *partner, const char *kernel, int64_t n, const double *x,
+                          const double *volume);
+/* Law of drag, with its words, and density (mass/volume) and dynamic viscosity (mass/(distance time)) of the fluid. */
+int talus_set_drag_law(talus_partner *partner, const char *law, double density, double viscosity);
+/* Of each cell of this rank: solid fraction; mean velocity of the grains by volume (3 each), 0 where there are none;
+   impulse of the drag on grains since the last call of this with exchange, per volume (3 each): what the fluid has lost.
+   Any may be NULL. */
+int talus_get_grains(talus_partner *partner, double *solid, double *velocity, double *exchange);
+/* Fields of the fluid in the cells of this rank, which drag, pressure gradient and buoyancy are found from, until the next call
+   of this: they replace what this partner has put with talus_put_drag() and talus_put_forces(). velocity (3 each);
+   pressure_gradient (pressure/distance, 3 each) or NULL; gravity: acceleration (3) from which buoyancy is found where
+   the gradient does not have it, or NULL. coefficient: sums of those of drag over grains per volume of the cell (force
+   time/(distance volume)), or NULL. */
+int talus_put_fluid(talus_partner *partner, const double *velocity, const double *pressure_gradient,
+                    const double *gravity, double *coefficient);
+
 #ifdef __cplusplus
 }
 #endif

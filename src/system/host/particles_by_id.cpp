@@ -11,12 +11,16 @@ using namespace LAMMPS_NS;
 
 namespace Talus {
 
-/* The map of LAMMPS may be missing, and need not be up to date between runs. */
+/* The map of LAMMPS may be missing, and need not be up to date between runs. Of a list in the order of this rank's
+   particles each is found behind the last one. */
 
 ParticlesById::ParticlesById(LAMMPS *lmp, const std::vector<std::int64_t> &ids) :
     Pointers(lmp), named(ids), here(ids.size(), -1)
 {
-  if (ids.empty()) return;
+  std::size_t in_order = 0;
+  for (int i = 0; i < atom->nlocal && in_order < ids.size(); i++)
+    if (atom->tag[i] == ids[in_order]) here[in_order++] = i;
+  if (in_order == ids.size()) return;
   std::unordered_map<std::int64_t, int> owned(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++) owned.emplace(atom->tag[i], i);
   for (std::size_t k = 0; k < ids.size(); k++)

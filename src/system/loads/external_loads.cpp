@@ -132,12 +132,15 @@ void ExternalLoads::release_if_idle()
   resize(0);
 }
 
-/* put(k, where) for those that are to have some from now on, which returns the kinds. */
+/* put(k, where) for those that are to have some from now on, which returns the kinds. Lists may be those of all
+   particles, or of this rank's: all take the place if one does. */
 
 template <class Put>
 void ExternalLoads::replace(int partner, unsigned kinds, const ParticlesById &particles, Put put)
 {
-  if (particles.size() == 0 && place_of(partner) < 0) return;
+  int any = particles.size() > 0;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any && place_of(partner) < 0) return;
   const int layer = take_place(partner);
   if (particles.size()) make_room();
   if (what.empty()) return;

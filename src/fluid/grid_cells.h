@@ -1,0 +1,52 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Cells of a fluid that are the boxes of a regular grid along the axes. A grain is in it if its center is. Both kernels are
+// integrated exactly over cells: the ball of the top hat is cut by their faces (fluid/ball_parts.h), the Gaussian is a product
+// of error functions, each up to 3 widths. Where the grid fills a period it goes on at the other side.
+
+#ifndef TALUS_FLUID_GRID_CELLS_H
+#define TALUS_FLUID_GRID_CELLS_H
+
+#include "fluid/fluid_cells.h"
+#include "fluid/fluid_kernel.h"
+
+#include <string>
+
+namespace Talus {
+
+class GridCells : public FluidCells {
+ public:
+  /// Corners (length) and numbers of cells along x, y, z; numbers of cells run along x fastest.
+  GridCells(const FluidKernel &kernel, const double *lo, const double *hi, const int *cells,
+            const Periods &periods);
+
+  /// "" or what is wrong with these, for messages. To be asked before a grid is made of them.
+  static std::string problem(const FluidKernel &kernel, const double *lo, const double *hi,
+                             const int *cells, const Periods &periods);
+
+  int size() const override { return cells[0] * cells[1] * cells[2]; }
+  double volume(int) const override { return edge[0] * edge[1] * edge[2]; }
+  bool find_shares(const double *x, double radius, std::vector<Share> &shares) const override;
+  int nearest_to(const double *x) const override;
+
+ private:
+  /// Cells along one axis that a kernel reaches, before the grid goes round.
+  struct Range {
+    int first, count;
+  };
+  double place(const double *x, int d) const;
+  Range range(double from, double to, int d) const;
+  int number_of(int x, int y, int z) const;
+  void divide_ball(const double (&x)[3], double radius, std::vector<Share> &shares) const;
+  void spread_gaussian(const double (&x)[3], std::vector<Share> &shares) const;
+
+  FluidKernel kernel;
+  double lo[3], hi[3], edge[3];
+  int cells[3];
+  Periods periods;
+  bool goes_round[3];
+};
+
+}    // namespace Talus
+
+#endif

@@ -1,0 +1,252 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+
+#include "system/loads/grains_in_fluid.h"
+
+#include "base/scaled_sum.h"
+#include "system/host/particle_volume.h"
+#include "system/loads/external_loads.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+namespace Talus {
+namespace {
+
+constexpr double rounding = 1e-12;
+/// Of laws: in cells smaller than grains there may be no fluid at all.
+constexpr double least_porosity = 0.1;
+
+double diameter_of(double volume)
+{
+  constexpr double pi = 3.14159265358979323846;
+  return std::cbrt(6.0 / pi * volume);
+}
+
+std::vector<int> numbers_by_place(const std::vector<OwnerExchange::Home> &homes, MPI_Comm ranks)
+{
+  int me;
+  MPI_Comm_rank(ranks, &me);
+  std::vector<int> numbers;
+  for (std::size_t n = 0; n < homes.size(); n++) {
+    if (homes[n].rank != me) continue;
+    if (homes[n].place >= static_cast<int>(numbers.size())) numbers.resize(homes[n].place + 1);
+    numbers[homes[n].place] = static_cast<int>(n);
+  }
+  return numbers;
+}
+
+}    // namespace
+
+FluidCells::Periods GrainsInFluid::periods_of(const Domain &domain)
+{
+  FluidCells::Periods periods{};
+  for (int d = 0; d < 3; d++) {
+    if (!domain.periodicity[d]) continue;
+    periods.begin[d] = domain.boxlo[d];
+    periods.length[d] = domain.prd[d];
+  }
+  return periods;
+}
+
+std::string GrainsInFluid::reason_against(LAMMPS *lmp)
+{
+  if (!lmp->domain->box_exist) return "there is no box yet";
+  if (lmp->domain->dimension != 3 || lmp->domain->triclinic)
+    return "a fluid needs 'dimension 3' and a box that is not triclinic";
+  if (!lmp->atom->radius_flag || !lmp->atom->rmass_flag)
+    return "particles have no radius and mass of their own: use 'atom_style sphere'";
+  if (lmp->force->ftm2v != 1.0)
+    return "drag needs units in which force is mass times length over time squared: use 'units "
+           "si', "
+           "cgs, lj, micro or nano";
+  return "";
+}
+
+GrainsInFluid::GrainsInFluid(LAMMPS *lmp, std::unique_ptr<FluidCells> all_cells,
+                             std::vector<OwnerExchange::Home> homes, int group, MPI_Comm ranks) :
+    Pointers(lmp),
+    cells(std::move(all_cells)), own_cells(numbers_by_place(homes, ranks)),
+    exchange(ranks, std::move(homes)), touched(cells->size()),
+    periods(periods_of(*Pointers::domain)), group_bits(group)
+{
+}
+
+bool GrainsInFluid::is_in_group(int i) const
+{
+  return (atom->mask[i] & group_bits) != 0;
+}
+
+std::string GrainsInFluid::problem_of_box() const
+{
+  const FluidCells::Periods now = periods_of(*domain);
+  return now.begin == periods.begin && now.length == periods.length
+             ? ""
+             : "the period of the box is another one than when the cells were given: give them "
+               "again";
+}
+
+std::string GrainsInFluid::problem_of_places() const
+{
+  std::vector<FluidCells::Share> unused;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_in_group(i)) continue;
+    const double *const x = atom->x[i];
+    if (cells->find_shares(x, atom->radius[i], unused)) continue;
+    return fmt::format(
+        "particle {} at {:.6g} {:.6g} {:.6g} is outside of the cells of the fluid: give cells that "
+        "cover the grains, points with a wider kernel, or a group of those in the fluid with the "
+        "word group of the kernel",
+        atom->tag[i], x[0], x[1], x[2]);
+  }
+  return "";
+}
+
+/* ---- from grains to cells ------------------------------------------------------------------- */
+
+void GrainsInFluid::find_shares(int i)
+{
+  if (!cells->find_shares(atom->x[i], atom->radius[i], shares))
+    shares.assign(1, {cells->nearest_to(atom->x[i]), 1.0});
+}
+
+/* No share is larger than one, but for rounding. */
+
+std::vector<double> GrainsInFluid::sum(int width, const Amounts &amounts)
+{
+  std::vector<double> largest(width, 0.0), of_one(width);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (amounts(i, of_one.data()))
+      for (int k = 0; k < width; k++) largest[k] = std::max(largest[k], std::fabs(of_one[k]));
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), width, MPI_DOUBLE, MPI_MAX, world);
+  std::vector<SumScale> scales;
+  for (const double bound : largest) scales.emplace_back(bound * (1.0 + rounding));
+
+  touched.clear();
+  std::vector<ScaledSum> sums;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!amounts(i, of_one.data())) continue;
+    find_shares(i);
+    for (const FluidCells::Share &share : shares) {
+      const std::size_t first = static_cast<std::size_t>(touched.slot(share.cell)) * width;
+      if (first == sums.size()) sums.resize(first + width);
+      for (int k = 0; k < width; k++) scales[k].add(share.weight * of_one[k], sums[first + k]);
+    }
+  }
+  const std::vector<ScaledSum> totals = exchange.to_owners(touched.cells(), sums, width);
+  std::vector<double> field(totals.size());
+  for (std::size_t n = 0; n < totals.size(); n++)
+    field[n] = scales[n % width].value(totals[n]) / cells->volume(own_cells[n / width]);
+  return field;
+}
+
+std::vector<double> GrainsInFluid::find_solid(const ShapedParticles *shapes, bool moving)
+{
+  return sum(moving ? 4 : 1, [&](int i, double *amount) {
+    if (!is_in_group(i)) return false;
+    amount[0] = particle_volume(*atom, shapes, i);
+    for (int d = 0; d < 3 && moving; d++) amount[1 + d] = amount[0] * atom->v[i][d];
+    return true;
+  });
+}
+
+std::vector<double> GrainsInFluid::take_exchange(ExternalLoads &loads, int partner)
+{
+  const std::vector<double> field = sum(3, [&](int i, double *amount) {
+    const double *const impulse = loads.impulse_for_fields(partner, i);
+    if (!impulse) return false;
+    std::copy(impulse, impulse + 3, amount);
+    return impulse[0] != 0.0 || impulse[1] != 0.0 || impulse[2] != 0.0;
+  });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (double *const impulse = loads.impulse_for_fields(partner, i))
+      std::fill(impulse, impulse + 3, 0.0);
+  return field;
+}
+
+std::vector<double> GrainsInFluid::find_coefficients(const FluidLoads &loads)
+{
+  std::vector<double> of_particle(atom->nlocal, 0.0);
+  std::size_t next = 0;    // they are in the order of particles
+  for (int i = 0; i < atom->nlocal && next < loads.ids.size(); i++)
+    if (atom->tag[i] == loads.ids[next]) of_particle[i] = loads.coefficient[next++];
+  return sum(1, [&](int i, double *amount) {
+    amount[0] = of_particle[i];
+    return amount[0] > 0.0;
+  });
+}
+
+/* ---- from cells to grains ------------------------------------------------------------------- */
+
+/* Of all particles of this rank, 0 of those not in the group. */
+
+std::vector<double> GrainsInFluid::values_at_grains(const std::vector<double> &of_cells, int width)
+{
+  touched.clear();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_in_group(i)) continue;
+    find_shares(i);
+    for (const FluidCells::Share &share : shares) static_cast<void>(touched.slot(share.cell));
+  }
+  const std::vector<double> near = exchange.from_owners(touched.cells(), of_cells, width);
+  std::vector<double> values(static_cast<std::size_t>(atom->nlocal) * width, 0.0);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_in_group(i)) continue;
+    find_shares(i);
+    double *const to = &values[static_cast<std::size_t>(i) * width];
+    for (const FluidCells::Share &share : shares) {
+      const double *const from = &near[static_cast<std::size_t>(touched.slot(share.cell)) * width];
+      for (int k = 0; k < width; k++) to[k] += share.weight * from[k];
+    }
+  }
+  return values;
+}
+
+FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLaw &law,
+                                     const FluidFields &fields)
+{
+  const bool has_gradient = fields.pressure_gradient != nullptr;
+  const int width = has_gradient ? 7 : 4;
+  const std::vector<double> solid =
+      law.depends_on_porosity() ? find_solid(shapes, false) : std::vector<double>(num_cells(), 0.0);
+  std::vector<double> of_cells;
+  for (int n = 0; n < num_cells(); n++) {
+    of_cells.push_back(1.0 - solid[n]);
+    for (int d = 0; d < 3; d++) of_cells.push_back(fields.velocity[3 * n + d]);
+    for (int d = 0; d < 3 && has_gradient; d++)
+      of_cells.push_back((*fields.pressure_gradient)[3 * n + d]);
+  }
+  const std::vector<double> at_grains = values_at_grains(of_cells, width);
+
+  FluidLoads loads;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_in_group(i)) continue;
+    const double *const at = &at_grains[static_cast<std::size_t>(i) * width], *const u = at + 1;
+    const double *const v = atom->v[i], volume = particle_volume(*atom, shapes, i);
+    const double speed = std::sqrt((u[0] - v[0]) * (u[0] - v[0]) + (u[1] - v[1]) * (u[1] - v[1]) +
+                                   (u[2] - v[2]) * (u[2] - v[2]));
+    const double c =
+        law.coefficient({diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
+                         fields.density, fields.viscosity});
+    if (c > 0.0) {
+      loads.ids.push_back(atom->tag[i]);
+      loads.coefficient.push_back(c);
+      loads.velocity.insert(loads.velocity.end(), u, u + 3);
+    }
+    if (!has_gradient && !fields.gravity) continue;
+    loads.pushed.push_back(atom->tag[i]);
+    for (int d = 0; d < 3; d++)
+      loads.force.push_back(-volume *
+                            ((has_gradient ? at[4 + d] : 0.0) +
+                             (fields.gravity ? fields.density * fields.gravity[d] : 0.0)));
+  }
+  return loads;
+}
+
+}    // namespace Talus

@@ -1,0 +1,100 @@
+// Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Grains in a fluid that a partner computes (talus.h): what grains are and give on its cells, and what its fields do to
+// grains. Both ways go through the same shares (fluid/fluid_cells.h), so that
+//
+//   field of a cell = sum over grains of share * amount / volume of the cell
+//   fluid at a grain = sum over its cells of share * value
+//
+// and nothing is lost between grains and cells. Every rank knows all cells, which are found by their numbers, and has the
+// values of its own. Fields have the same bits on any number of ranks, whatever the division of grains and cells.
+
+#ifndef TALUS_SYSTEM_LOADS_GRAINS_IN_FLUID_H
+#define TALUS_SYSTEM_LOADS_GRAINS_IN_FLUID_H
+
+#include "exchange/owner_exchange.h"
+#include "fluid/drag_law.h"
+#include "fluid/fluid_cells.h"
+#include "fluid/touched_cells.h"
+
+#include "pointers.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Talus {
+
+class ExternalLoads;
+class ShapedParticles;
+
+/// What the cells of this rank have, in the order of places, 3 each. Gradient of the pressure: nullptr for none.
+struct FluidFields {
+  const std::vector<double> &velocity, *pressure_gradient;
+  double density, viscosity;
+  const double *gravity;    ///< of the buoyancy; nullptr: that is in the gradient, or left out
+};
+
+/// Of particles of this rank with drag, by ID, and forces on them: none, or 3 each.
+struct FluidLoads {
+  std::vector<std::int64_t> ids;
+  std::vector<double> coefficient, velocity;
+  std::vector<std::int64_t> pushed;
+  std::vector<double> force;
+};
+
+class GrainsInFluid : protected LAMMPS_NS::Pointers {
+ public:
+  /// Of the box as it is now.
+  static FluidCells::Periods periods_of(const LAMMPS_NS::Domain &domain);
+  /// "" or why this instance cannot, for messages; the same on all ranks.
+  static std::string reason_against(LAMMPS_NS::LAMMPS *lmp);
+
+  /// Collective, the same cells and homes on all ranks. `group`: bits of the grains that are in the fluid.
+  GrainsInFluid(LAMMPS_NS::LAMMPS *lmp, std::unique_ptr<FluidCells> all_cells,
+                std::vector<OwnerExchange::Home> homes, int group, MPI_Comm ranks);
+
+  /// Of this rank.
+  int num_cells() const { return exchange.num_owned(); }
+
+  // ---- between runs
+
+  /// To be asked first: "", or why the box is another one than that of the cells; and of this rank, which grain is
+  /// outside of them.
+  std::string problem_of_box() const;
+  std::string problem_of_places() const;
+  /// Collective. Solid fraction of the cells of this rank, and with `moving` the volume that moves, per volume and
+  /// time, 3 each behind it.
+  std::vector<double> find_solid(const ShapedParticles *shapes, bool moving);
+  /// Collective. Impulse of the drag that this partner has put, since the last call, per volume of cells (3 each). That
+  /// of grains which have left the cells, or the group, counts too.
+  std::vector<double> take_exchange(ExternalLoads &loads, int partner);
+  /// Collective. What these fields do to grains with their present velocities.
+  FluidLoads find_loads(const ShapedParticles *shapes, const DragLaw &law,
+                        const FluidFields &fields);
+  /// Collective. Sum of coefficients per volume of the cells of this rank.
+  std::vector<double> find_coefficients(const FluidLoads &loads);
+
+ private:
+  /// amounts(i, values) says what a particle has, and returns whether it counts.
+  using Amounts = std::function<bool(int i, double *values)>;
+
+  bool is_in_group(int i) const;
+  void find_shares(int i);
+  std::vector<double> sum(int width, const Amounts &amounts);
+  std::vector<double> values_at_grains(const std::vector<double> &of_cells, int width);
+
+  std::unique_ptr<FluidCells> cells;
+  std::vector<int> own_cells;    // number of each place
+  OwnerExchange exchange;
+  TouchedCells touched;
+  FluidCells::Periods periods;
+  int group_bits;
+  std::vector<FluidCells::Share> shares;    // of the last grain
+};
+
+}    // namespace Talus
+
+#endif
