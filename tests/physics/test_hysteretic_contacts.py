@@ -56,7 +56,6 @@ class Impacts(SceneCase):
         print(f"\nluding: restitution {found:.5f}, expected {math.sqrt(back):.5f}")
         self.assertAlmostEqual(found, math.sqrt(back), delta=2e-3)
 
-
     def test_eepa(self):
         """The work of unloading, and of the adhesive branch, over that of loading."""
         n, lam, chi, r_eff = 1.5, 0.6, 2, R / 2
@@ -75,7 +74,7 @@ class Impacts(SceneCase):
             self.assertAlmostEqual(found, expected, delta=2e-3)
 
 
-PRESSED = begin("si", law=LUDING, skin=0.05, dt=1e-4) + """
+PRESSED = begin("si", law="{law}", skin=0.05, dt=1e-4) + """
 fix drive all move wiggle 0 0 {depth} 0.4
 fix w all large/body {shape} contact {law}
 dump state all custom 1 {out} id z fz
