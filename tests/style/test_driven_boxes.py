@@ -50,7 +50,7 @@ class DrivenBoxes(SceneCase):
         for mine, theirs in zip(found, expected):
             worst = max(abs(a - b) for a, b in zip(mine, theirs))
             # newer hosts know a rate of strain, but no pressure, one step earlier; with LAMMPS' own speeds .08
-            self.assertLess(worst, 2e-2 * max(map(abs, expected[0])))
+            self.assertLess(worst, 4e-2 * max(map(abs, expected[0])))
         self.assertRegex(log, TOLD)
 
     def test_a_side_that_follows_a_pressure(self):
