@@ -25,7 +25,7 @@ BondStyle(bpm/rotational/talus,BondBPMRotationalTalus);
 
 #include "BPM/bond_bpm_rotational.h"
 #include "bonds/rotational_bonds.h"
-#include "system/host/system_bond.h"
+#include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
 #include <memory>
@@ -33,14 +33,14 @@ BondStyle(bpm/rotational/talus,BondBPMRotationalTalus);
 
 namespace LAMMPS_NS {
 
-class BondBPMRotationalTalus : public BondBPMRotational, public Talus::SystemBond {
+class BondBPMRotationalTalus : public BondBPMRotational, public Talus::SystemStyle {
  public:
   explicit BondBPMRotationalTalus(class LAMMPS *);
   void init_style() override;
   void compute(int, int) override;
   double memory_usage() override;
 
-  // SystemBond
+  // SystemStyle
   std::string plain_style() const override { return "bpm/rotational"; }
   std::string reason_for_stock() const override { return reason; }
 

@@ -35,14 +35,6 @@ PartnerFluid &fluid_with_cells(talus_partner &partner, bool inside)
 
 namespace {
 
-/// Some rank of those on which the partner lives has given it.
-bool is_given(const talus_partner &partner, const void *given)
-{
-  int any = given && partner.lives_here();
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, partner.world());
-  return any != 0;
-}
-
 std::string problem_of(const char *what, const double *given, int count, int rank)
 {
   if (count && !given) return fmt::format("{} is NULL on rank {}", what, rank);
@@ -92,8 +84,9 @@ void divide_by_solid(std::vector<double> &table)
 int call_get_grains(talus_partner *partner, double *solid, double *velocity, double *exchange)
 {
   return partner->collective("talus_get_grains", [&] {
-    const bool with_solid = is_given(*partner, solid), with_velocity = is_given(*partner, velocity),
-               with_exchange = is_given(*partner, exchange);
+    const bool with_solid = partner->is_given(solid != nullptr),
+               with_velocity = partner->is_given(velocity != nullptr),
+               with_exchange = partner->is_given(exchange != nullptr);
     const PartnerFluid &fluid = fluid_with_cells(*partner, with_solid || with_velocity);
     if (with_solid || with_velocity) {
       std::vector<double> table =
@@ -117,8 +110,8 @@ int call_put_fluid(talus_partner *partner, const double *velocity, const double 
   return partner->collective("talus_put_fluid", [&] {
     const PartnerFluid &fluid = fluid_with_cells(*partner, true);
     if (!fluid.has_law) throw Refusal("there is no law of drag: call talus_set_drag_law() before");
-    const bool with_gradient = is_given(*partner, pressure_gradient),
-               with_gravity = is_given(*partner, gravity);
+    const bool with_gradient = partner->is_given(pressure_gradient != nullptr),
+               with_gravity = partner->is_given(gravity != nullptr);
     const std::vector<double> velocities = field_of(*partner, fluid, "velocity", velocity);
     std::vector<double> gradients, acceleration;
     if (with_gradient)
@@ -135,7 +128,7 @@ int call_put_fluid(talus_partner *partner, const double *velocity, const double 
     partner->refuse_if(loads.problem_of_drag(dragged, found.coefficient.data()));
     loads.put_drag(partner->number(), dragged, found.coefficient.data(), found.velocity.data());
     loads.put_forces(partner->number(), pushed, found.force.data(), nullptr);
-    if (is_given(*partner, coefficient))
+    if (partner->is_given(coefficient != nullptr))
       give_columns(*partner, fluid, coefficient, fluid.grains->find_coefficients(found), 1, 0, 1);
   });
 }

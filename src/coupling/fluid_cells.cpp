@@ -144,13 +144,6 @@ std::vector<std::int64_t> ranges_of_all(talus_partner &partner, const int *first
   return gather(mine, MPI_INT64_T, -1, partner.world());
 }
 
-bool any_rank(const talus_partner &partner, bool here)
-{
-  int any = here;
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, partner.world());
-  return any != 0;
-}
-
 /// Cells of this rank, or a text that says what is wrong.
 std::string read_points(const talus_partner &partner, std::int64_t n, const double *x,
                         const double *volume, std::vector<double> &rows)
@@ -195,7 +188,7 @@ int call_set_fluid_grid(talus_partner *partner, const char *kernel, const double
     if (!problem.empty()) throw Refusal(problem);
     auto grid =
         std::make_unique<GridCells>(words.kernel, begin.data(), end.data(), number, periods);
-    const bool divided = partner->home() < 0 && any_rank(*partner, first || last);
+    const bool divided = partner->home() < 0 && partner->is_given(first || last);
     Homes homes;
     if (divided)
       homes = homes_of_ranges(ranges_of_all(*partner, first, last), number);

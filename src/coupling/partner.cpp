@@ -264,6 +264,13 @@ void talus_partner::check(const char *what, const std::string &problem, std::uin
         " is not the same on all ranks: let the partner live on one, or give all the same");
 }
 
+bool talus_partner::is_given(bool here) const
+{
+  int any = here && lives_here();
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world());
+  return any != 0;
+}
+
 void talus_partner::refuse_if(const std::string &problem)
 {
   check("", problem, 0);

@@ -88,6 +88,8 @@ struct talus_partner : protected LAMMPS_NS::Pointers {
                                         std::int64_t count);
   /// Of pointers that may be NULL: whether it is given.
   bool has(const char *what, const void *given);
+  /// The same where each rank has a part of its own: some rank has given it.
+  bool is_given(bool here) const;
   /// Throws Refusal on all ranks if some rank has a text; that of the lowest one.
   void refuse_if(const std::string &problem);
   /// Writes results where they are wanted and there is room.

@@ -2,6 +2,7 @@
 
 #include "laws/contact_law.h"
 
+#include "base/power.h"
 #include "laws/law_list.h"
 
 #include <algorithm>
@@ -121,8 +122,8 @@ static double pulloff_distance_of(const ContactLaw &law, const ContactCoefficien
                                   const ContactSize &size)
 {
   const Stage stage = law.stage_of_pulloff();
-  const auto distance = law[stage].pulloff_distance;
-  return distance ? distance(law.coefficients(stage, row), size) : 0.0;
+  const auto cube = law[stage].pulloff_cube;
+  return cube ? cube_root(cube(law.coefficients(stage, row), size)) : 0.0;
 }
 
 static double volume_of_sphere(double radius)

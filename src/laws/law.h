@@ -126,10 +126,9 @@ struct Law {
   double (*stored)(const ContactLanes<double> &contact, const double *c, const double *history);
   /// Normal: effective Young's modulus of a Hertzian contact, 0 of others.
   double (*modulus)(const double *c);
-  /// Normal, cohesion: how far a contact that has begun lasts beyond zero overlap (length); nullptr
-  /// if not. Heat: up to where it flows.
-  double (*pulloff_distance)(const double *c, const ContactSize &size);
-  /// Its third power, which takes no root: what bodies that have come apart are asked in each step.
+  /// Normal, cohesion: the third power of the pull-off distance (length), how far a contact that has begun lasts beyond
+  /// zero overlap; nullptr if not. Heat: up to where it flows. A power, since the formulas of most laws have one, and
+  /// bodies that have come apart are asked in each step.
   double (*pulloff_cube)(const double *c, const ContactSize &size);
   /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
   StageFunction find_pulloff_distance;

@@ -38,13 +38,8 @@ struct LawBase {
   /// is nothing; `adhesive`: the normal law has adhesion of its own. See second_order_laws.h.
   static constexpr std::nullptr_t order_2 = nullptr;
   static constexpr double exponent = 1.0;
-  /// Normal, cohesion and heat: how far a contact lasts beyond zero overlap (length), in proportion to the radius of heat,
-  /// and its third power; only called if lasts_beyond_contact.
-  template <class Row>
-  static double pulloff_distance(const Row & /*c*/, const ContactSize & /*size*/)
-  {
-    return 0.0;
-  }
+  /// Normal, cohesion and heat: the third power of how far a contact lasts beyond zero overlap (length), of heat in
+  /// proportion to the radius; only called if lasts_beyond_contact.
   template <class Row> static double pulloff_cube(const Row & /*c*/, const ContactSize & /*size*/)
   {
     return 0.0;

@@ -20,6 +20,7 @@
 #ifndef TALUS_LAWS_LAW_DEFINITION_H
 #define TALUS_LAWS_LAW_DEFINITION_H
 
+#include "base/power.h"
 #include "laws/batch_lanes.h"
 #include "laws/law_base.h"
 
@@ -171,11 +172,6 @@ double stored_energy(const ContactLanes<double> &s, const double *c, const doubl
   return L::stored(s, row_of<L>(c), history);
 }
 
-template <class L> double pulloff_distance_by(const double *c, const ContactSize &size)
-{
-  return L::pulloff_distance(row_of<L>(c), size);
-}
-
 template <class L> double pulloff_cube_by(const double *c, const ContactSize &size)
 {
   return L::pulloff_cube(row_of<L>(c), size);
@@ -188,7 +184,7 @@ void run_pulloff_distance(ContactBatch &b, int begin, int end, const StageInput 
   for (int k = begin; k < end; k++) {
     if (b.overlap[k] > 0.0) continue;
     const double *c = in.table[in.uniform ? 0 : b.coefficients[k]].c + in.first_coefficient;
-    b.pulloff_distance[k] = pulloff_distance_by<L>(c, {1.0 / b.inverse_radius[k], 0.0});
+    b.pulloff_distance[k] = cube_root(pulloff_cube_by<L>(c, {1.0 / b.inverse_radius[k], 0.0}));
   }
 }
 
@@ -239,10 +235,7 @@ template <class L> constexpr Law make_law()
     law.damping_exponent = L::damping_exponent;
     law.dashpot_exponent = L::dashpot_exponent;
   }
-  if constexpr (L::lasts_beyond_contact) {
-    law.pulloff_distance = pulloff_distance_by<L>;
-    law.pulloff_cube = pulloff_cube_by<L>;
-  }
+  if constexpr (L::lasts_beyond_contact) law.pulloff_cube = pulloff_cube_by<L>;
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) law.find_pulloff_distance = run_pulloff_distance<L>;

@@ -9,7 +9,7 @@
 
 #include "laws/contact_lanes.h"
 #include "system/contacts/bonded_pairs.h"
-#include "system/host/system_pair.h"
+#include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
 #include "pair.h"
@@ -33,7 +33,7 @@ struct SinglePair {
   }
 };
 
-template <class Base> class PairOfSystem : public Base, public Talus::SystemPair {
+template <class Base> class PairOfSystem : public Base, public Talus::SystemStyle {
  protected:
   explicit PairOfSystem(LAMMPS *lmp) :
       Base(lmp), system(Talus::GranularSystem::of(lmp)), bonded_pairs(lmp, *system)

@@ -5,12 +5,34 @@ import json
 import os
 import sys
 
-from talus_testing import SceneCase, run_program
+from talus_testing import SceneCase, head, run_program
 
 SOURCE, BUILD = os.environ["TALUS_SOURCE_DIR"], os.environ["TALUS_BINARY_DIR"]
 HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
 if not os.path.isdir(os.path.join(HOST_SOURCE, "python")):
     HOST_SOURCE = os.path.dirname(HOST_SOURCE.rstrip("/"))
+
+# two clumps of two grains each
+TWO_CLUMPS = head() + """
+fix prop all property/atom mol ghost yes
+region box block -10 10 -10 10 -20 20
+create_box 1 box
+create_atoms 1 single 5 0 0.4
+create_atoms 1 single 5 0 -0.4
+create_atoms 1 single -5 0 0.4
+create_atoms 1 single -5 0 -0.4
+set group all diameter 1 mass 0.5
+set atom 1*2 mol 1
+set atom 3*4 mol 2
+pair_style gran/penalty
+pair_coeff * * hooke 1e3 0 tangential multistep NULL NULL 0.5
+neighbor 0.2 bin
+neigh_modify exclude molecule/intra all
+timestep 0.001
+{move}
+thermo {thermo}
+thermo_style custom step
+"""
 
 
 def host_environment(**more):

@@ -7,7 +7,7 @@ errors."""
 import math
 import unittest
 
-from coupled_case import CoupledCase
+from coupled_case import CoupledCase, TWO_CLUMPS
 from talus_testing import Sphere, begin, head, write_sphere_data
 
 HEAD = """
@@ -64,27 +64,6 @@ INTEGRATORS = {
     "order2": ("fix step all nve/sphere/symplectic order 2 " + GRAVITY, 0.5, 0.0),
     "verlet": ("fix weight all " + GRAVITY + "\nfix step all nve/sphere", 0.5, 0.5),
 }
-
-CLUMPS = head() + """
-fix prop all property/atom mol ghost yes
-region box block -10 10 -10 10 -20 20
-create_box 1 box
-create_atoms 1 single 5 0 0.4
-create_atoms 1 single 5 0 -0.4
-create_atoms 1 single -5 0 0.4
-create_atoms 1 single -5 0 -0.4
-set group all diameter 1 mass 0.5
-set atom 1*2 mol 1
-set atom 3*4 mol 2
-pair_style gran/penalty
-pair_coeff * * hooke 1e3 0 tangential multistep NULL NULL 0.5
-neighbor 0.2 bin
-neigh_modify exclude molecule/intra all
-timestep 0.001
-{move}
-thermo {thermo}
-thermo_style custom step
-"""
 
 # a bed that is stirred by forces, torques and drag on some of its grains, put anew every few steps
 BED = begin(boundary="p f f", read="read_data grains", law="hooke 1e4 20 tangential multistep NULL NULL 0.5", skin=0.2, dt=0.001,
@@ -525,7 +504,7 @@ lmp.close()
                 self.assertAlmostEqual(impulse[k][d], expected_impulse[d], delta=1e-13)
 
     def clumps(self, move, thermo):
-        return CLUMPS.format(move=move, thermo=thermo)
+        return TWO_CLUMPS.format(move=move, thermo=thermo)
 
     def test_clumps(self):
         """Two clumps of two spheres: one sinks with drag on both, the other one is turned by torques. With velocity Verlet the

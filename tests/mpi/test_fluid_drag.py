@@ -7,7 +7,7 @@ import json
 import math
 import unittest
 
-from coupled_case import CoupledCase
+from coupled_case import CoupledCase, TWO_CLUMPS
 from talus_testing import Sphere, head, write_sphere_data
 
 HEAD = """
@@ -51,27 +51,6 @@ neighbor 0.2 bin
 pair_style gran/penalty
 pair_coeff * * hooke 1e3 0
 timestep 0.001
-thermo 0
-"""
-
-CLUMP = head() + """
-fix prop all property/atom mol ghost yes
-region box block -10 10 -10 10 -20 20
-create_box 1 box
-create_atoms 1 single 5 0 0.4
-create_atoms 1 single 5 0 -0.4
-create_atoms 1 single -5 0 0.4
-create_atoms 1 single -5 0 -0.4
-set group all diameter 1 mass 0.5
-set atom 1*2 mol 1
-set atom 3*4 mol 2
-pair_style gran/penalty
-pair_coeff * * hooke 1e3 0 tangential multistep NULL NULL 0.5
-neighbor 0.2 bin
-neigh_modify exclude molecule/intra all
-timestep 0.001
-fix move all rigid/small/symplectic molecule
-thermo_style custom step
 thermo 0
 """
 
@@ -236,7 +215,7 @@ with partner:
 lmp.close()
 """
         for np in (1, 2):
-            (first, second), v = self.said(f"SCENE = {CLUMP!r}\n" + program, np=np)
+            (first, second), v = self.said(f"SCENE = {TWO_CLUMPS.format(move='fix move all rigid/small/symplectic molecule', thermo=0)!r}\n" + program, np=np)
             self.assertRegex(first, r"^talus_put_fluid: particle [1-4] belongs to a clump, whose drag is taken at the present velocity")
             self.assertEqual(second, "none")
             c, sinks = 3 * math.pi * 0.3, 0.0

@@ -32,10 +32,6 @@ struct Thread : CohesionLaw {
   {
     return {m.mean("thread force"), m.mean("thread length")};
   }
-  static double pulloff_distance(const Row<double> &c, const ContactSize & /*size*/)
-  {
-    return c.length;
-  }
   static double pulloff_cube(const Row<double> &c, const ContactSize & /*size*/)
   {
     return c.length * c.length * c.length;

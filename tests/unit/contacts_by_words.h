@@ -69,6 +69,29 @@ struct Pair {
   {
     return single_contact(law, row, at(gap, velocity), 1.0e-5, history);
   }
+  /// Contacts that move, turn, conduct heat and remember something: apart in even lanes k, by 1e-6 (k + 1), with an
+  /// overlap of 1e-6 k in odd ones.
+  ContactBatch touching_and_apart() const
+  {
+    ContactBatch batch;
+    batch.clear();
+    for (int n = 0; n < ContactBatch::history_size; n++)
+      for (double &value : batch.history[n]) value = 1e-6 * (n + 1);
+    for (int k = 0; k < ContactBatch::width; k++) {
+      const ContactState<double> s = at(k % 2 ? -1e-6 * k : 1e-6 * (k + 1));
+      batch.overlap[k] = s.overlap;
+      batch.normal[0][k] = 1.0;
+      batch.inverse_mass[k] = s.inverse_mass;
+      batch.inverse_radius[k] = s.inverse_radius;
+      batch.inverse_distance[k] = s.inverse_distance;
+      batch.temperature_difference[k] = 10.0;
+      for (int d = 0; d < 3; d++) {
+        batch.velocity[d][k] = 0.1 * (d + 1);
+        batch.surface_rotation[d][k] = batch.relative_omega[d][k] = 0.2 - 0.1 * d;
+      }
+    }
+    return batch;
+  }
   double attraction(double gap) const { return -contact(gap).force.x; }
   double stored(double gap, const HistoryValues &history = {}) const
   {

@@ -137,23 +137,7 @@ TEST(LiquidBridge, IsAllThatActsWhereBodiesAreApart)
         "hertz 1e6 50 tangential mindlin 1e6 1 0.5 rolling sds 1e3 1 0.1 twisting marshall",
         "hertz/material 1e7 0.6 0.3 tangential multistep NULL NULL 0.5 heat area 1"}) {
     const Pair pair(law + " adhesion willett 0.07 10 volume 1e-11", 1e-3, 2e-3);
-    ContactBatch batch;
-    batch.clear();
-    for (int n = 0; n < ContactBatch::history_size; n++)
-      for (double &value : batch.history[n]) value = 1e-6 * (n + 1);
-    for (int k = 0; k < ContactBatch::width; k++) {
-      const ContactState<double> s = pair.at(k % 2 ? -1e-6 * k : 1e-6 * (k + 1));
-      batch.overlap[k] = s.overlap;
-      batch.normal[0][k] = 1.0;
-      batch.inverse_mass[k] = s.inverse_mass;
-      batch.inverse_radius[k] = s.inverse_radius;
-      batch.inverse_distance[k] = s.inverse_distance;
-      batch.temperature_difference[k] = 10.0;
-      for (int d = 0; d < 3; d++) {
-        batch.velocity[d][k] = 0.1 * (d + 1);
-        batch.surface_rotation[d][k] = batch.relative_omega[d][k] = 0.2 - 0.1 * d;
-      }
-    }
+    ContactBatch batch = pair.touching_and_apart();
     accounting_kernel(pair.law, true, true)(batch, 0, ContactBatch::width, &pair.row, 1e-5);
     for (int k = 0; k < ContactBatch::width; k += 2) {
       const double attraction = pair.attraction(1e-6 * (k + 1));

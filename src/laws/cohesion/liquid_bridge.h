@@ -78,10 +78,6 @@ template <class Model> struct LiquidBridge : CohesionLaw {
             least_gap > 0.0 ? least_gap : 1.0};
   }
 
-  static double pulloff_distance(const BridgeRow<double> &c, const ContactSize &size)
-  {
-    return c.reach * cube_root(c.volume + c.fraction * size.volume);
-  }
   static double pulloff_cube(const BridgeRow<double> &c, const ContactSize &size)
   {
     return c.reach * c.reach * c.reach * (c.volume + c.fraction * size.volume);

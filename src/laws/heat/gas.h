@@ -61,13 +61,9 @@ struct HeatGas : Conduction {
   }
 
   /// In proportion to the radius, as ContactLaw::reaches() demands.
-  static double pulloff_distance(const GasRow<double> &c, const ContactSize &size)
-  {
-    return 2.0 * c.reach * size.radius;
-  }
   static double pulloff_cube(const GasRow<double> &c, const ContactSize &size)
   {
-    const double distance = pulloff_distance(c, size);
+    const double distance = 2.0 * c.reach * size.radius;
     return distance * distance * distance;
   }
 

@@ -22,11 +22,7 @@ struct Jkr : AdhesiveLaw {
   static constexpr const char *name = "jkr", *label = name;
   static constexpr bool lasts_beyond_contact = true;
 
-  /// (3 pi^2/16 R gamma^2/E^2)^(1/3)
-  static double pulloff_distance(const Row<double> &c, const ContactSize &size)
-  {
-    return cube_root(pulloff_cube(c, size));
-  }
+  /// 3 pi^2/16 R gamma^2/E^2
   static double pulloff_cube(const Row<double> &c, const ContactSize &size)
   {
     const double ratio = c.gamma / c.young;

@@ -2,10 +2,9 @@
 //
 // Which objects of LAMMPS are of Talus.
 
-#include "system/host/system_bond.h"
 #include "system/host/system_fix.h"
-#include "system/host/system_pair.h"
 #include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 
 #include "bond.h"
 #include "fix.h"
@@ -19,14 +18,14 @@ SystemFix *SystemFix::of(LAMMPS_NS::Fix *fix)
   return dynamic_cast<SystemFix *>(fix);
 }
 
-const SystemPair *SystemPair::of(const LAMMPS_NS::Pair *pair)
+const SystemStyle *SystemStyle::of(const LAMMPS_NS::Pair *pair)
 {
-  return dynamic_cast<const SystemPair *>(pair);
+  return dynamic_cast<const SystemStyle *>(pair);
 }
 
-const SystemBond *SystemBond::of(const LAMMPS_NS::Bond *bond)
+const SystemStyle *SystemStyle::of(const LAMMPS_NS::Bond *bond)
 {
-  return dynamic_cast<const SystemBond *>(bond);
+  return dynamic_cast<const SystemStyle *>(bond);
 }
 
 SystemRunStyle *SystemRunStyle::of(LAMMPS_NS::Integrate *style)

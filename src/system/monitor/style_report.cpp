@@ -4,10 +4,9 @@
 
 #include "base/talus_version.h"
 #include "system/host/fix_list.h"
-#include "system/host/system_bond.h"
 #include "system/host/system_fix.h"
-#include "system/host/system_pair.h"
 #include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
 #include "comm.h"
@@ -53,7 +52,7 @@ template <typename Styles> std::string why_stock(const Styles &styles, const std
 std::string line_of_bonds(const Force &force)
 {
   if (!force.bond) return "";
-  const auto *talus_bond = SystemBond::of(force.bond);
+  const auto *talus_bond = SystemStyle::of(force.bond);
   const std::string name = talus_bond ? talus_bond->plain_style() : force.bond_style;
   return line("bond " + name,
               how(talus_bond ? talus_bond->reason_for_stock() : why_stock(*force.bond_map, name)));
@@ -90,7 +89,7 @@ bool StyleReport::concerns(const GranularSystem &system) const
 std::string StyleReport::text(const GranularSystem &system,
                               const std::string &reason_for_arrays) const
 {
-  const auto *talus_pair = SystemPair::of(force->pair);
+  const auto *talus_pair = SystemStyle::of(force->pair);
   const std::string pair = talus_pair    ? talus_pair->plain_style()
                            : force->pair ? force->pair_style
                                          : "none";
@@ -105,7 +104,7 @@ std::string StyleReport::text(const GranularSystem &system,
 std::string StyleReport::pair_is(const GranularSystem &system) const
 {
   if (!force->pair) return how("there is no pair style");
-  if (const auto *talus_pair = SystemPair::of(force->pair))
+  if (const auto *talus_pair = SystemStyle::of(force->pair))
     return how(talus_pair->reason_for_stock());
   if (system.pair_style().is_alone()) return how("");    // the only part of hybrid
   if (system.pair_style().is_there())
