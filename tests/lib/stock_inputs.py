@@ -25,7 +25,8 @@ class StockInput:
     in all digits over the first 100 steps.  rubs: tests at whose end spheres turn, as they do after contacts: short,
     long, both, never.  variables: for -var.  since: first version that has it.
     error: {version: error of that LAMMPS itself}.
-    shared: {version: by how much that LAMMPS is wrong in a way that its twins share, positions in diameters}."""
+    shared: {version: by how much that LAMMPS is wrong in a way that its twins share: positions in diameters, printed numbers of the
+    largest of their column}."""
     name: str
     tables: str
     steps: int
