@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // LAMMPS' communication object with a direct exchange, for comm_style brick and tiled:
-// ExchangeSwitch puts it in the place of the stock one. doc/comm_proxy.md is the user's page.
+// ExchangeSwitch puts it in the place of the stock one. doc/run_style_verlet_proxy.md is the user's page.
 //
 // Migration and all exchanges of single styles stay those of LAMMPS, and borders too but where
 // CommReach chooses proxies; forward_comm(), which runs in every other step, is that of

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The command comm_proxy: what the user decides on the direct exchange, see exchange_switch.h;
-// prints and checks what it does. doc/comm_proxy.md is the user's page.
+// prints and checks what it does. doc/run_style_verlet_proxy.md is the user's page.
 
 #ifndef LMP_PROXY_COMMAND_H
 #define LMP_PROXY_COMMAND_H

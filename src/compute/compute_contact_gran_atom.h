@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // compute ID group contact/gran/atom: how many particles and large bodies each particle touches.
-// doc/compute_contact_gran_atom.md is the user's page.
+// doc/compute_contacts.md is the user's page.
 
 #ifndef LMP_COMPUTE_CONTACT_GRAN_ATOM_H
 #define LMP_COMPUTE_CONTACT_GRAN_ATOM_H

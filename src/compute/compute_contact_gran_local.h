@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // compute ID group contact/gran/local: the contacts of a step as rows of numbers, those of
-// particles with each other and with large bodies. doc/compute_contact_gran_local.md is the user's
+// particles with each other and with large bodies. doc/compute_contacts.md is the user's
 // page.
 
 #ifndef LMP_COMPUTE_CONTACT_GRAN_LOCAL_H

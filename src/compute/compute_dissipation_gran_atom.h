@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // compute ID group dissipation/gran/atom: energy dissipated by the contacts of each particle.
-// doc/compute_dissipation_gran_atom.md is the user's page.
+// doc/compute_contacts.md is the user's page.
 
 #ifndef LMP_COMPUTE_DISSIPATION_GRAN_ATOM_H
 #define LMP_COMPUTE_DISSIPATION_GRAN_ATOM_H

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // compute ID all penalty/stats: contacts and the energies that they store and dissipate, pairs of
-// particles and large bodies together, of any pair style of Talus. doc/compute_penalty_stats.md is
+// particles and large bodies together, of any pair style of Talus. doc/compute_contacts.md is
 // the user's page.
 
 #ifndef LMP_COMPUTE_PENALTY_STATS_H

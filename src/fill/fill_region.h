@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // Command fill_region: a region is packed with spheres that overlap by no more than a limit.
-// doc/fill_region.md is the user's page.
+// doc/filling.md is the user's page.
 
 #ifndef LMP_FILL_REGION_H
 #define LMP_FILL_REGION_H

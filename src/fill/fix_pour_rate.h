@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// fix pour/rate: a stream of spheres into a region at a given mass rate. doc/fix_pour_rate.md is
+// fix pour/rate: a stream of spheres into a region at a given mass rate. doc/filling.md is
 // the user's page. That its name begins with that of LAMMPS' fix pour tells pair styles that
 // particles will come, and to ask extract() how large they are.
 

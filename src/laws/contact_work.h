@@ -8,7 +8,7 @@
 // The force F belongs to the time of the positions, half way between the velocities before and
 // after the kick that it gives: the change of kinetic energy by it is dt F times their mean. The
 // contact sees the velocity v before it; dv, half the change by the kick before, brings it to the
-// time of the positions, to second order in the step. See doc/compute_penalty_stats.md for how
+// time of the positions, to second order in the step. See doc/compute_contacts.md for how
 // much that is.
 //
 // Of contacts that last beyond zero overlap or are hysteretic the work is that of the whole normal
