@@ -279,6 +279,23 @@ class Pebbles(SceneCase):
         self.assertAlmostEqual(last["v_speed"], -9.81e-3, delta=1e-9)
 
 
+class Tablets(SceneCase):
+
+    def test_lines(self):
+        """The fraction of the volume of the tablets themselves, not of the spheres around them."""
+        lines, = [block for block in blocks(page("filling.md")) if "shape/gran" in block]
+        log = self.run_lammps(head(units="si") + "region box block 0 0.08 0 0.08 0 0.1 units box\ncreate_box 1 box\n"
+                              "region fill block 0.01 0.07 0.01 0.07 0.01 0.09 units box\npair_style gran/penalty\n"
+                              "pair_coeff * * hooke 1e3 20 tangential multistep NULL NULL 0.5\ntimestep 1e-5\n" + lines
+                              + "variable solid equal mass(all)/1200/(0.06*0.06*0.08)\nthermo_style custom step atoms v_solid\n"
+                              "thermo_modify format float %.12g\nrun 0\n").log
+        first = thermo(log)[-1]
+        tablet = 4 / 3 * math.pi * 0.004 * 0.004 * 0.002 / (0.06 * 0.06 * 0.08)
+        self.assertGreater(first["Atoms"], 400)
+        self.assertAlmostEqual(first["v_solid"], first["Atoms"] * tablet, delta=1e-9)
+        self.assertAlmostEqual(first["v_solid"], 0.2, delta=tablet)
+
+
 class FirstPage(SceneCase):
 
     def test_example(self):
