@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The words `move`, `servo`, `gravity`, `load` and `surface_velocity` of fix large/body, see
-// doc/fix_large_body_motion.md.
+// doc/large_bodies.md.
 
 #ifndef TALUS_FIX_BODY_BODY_MOTION_WORDS_H
 #define TALUS_FIX_BODY_BODY_MOTION_WORDS_H

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How a large body moves, as a command says it: see doc/fix_large_body_motion.md. Made by the reader of its words
+// How a large body moves, as a command says it: see doc/large_bodies.md. Made by the reader of its words
 // (fix/body/body_motion_words.h), taken by LargeBodyMotion. Units are those of the script.
 
 #ifndef TALUS_SYSTEM_BODIES_BODY_MOTION_SPEC_H
