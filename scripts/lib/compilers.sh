@@ -137,8 +137,8 @@ with_compiler() {
 # Unit tests of what must have the same bits everywhere.
 TALUS_BITS_TESTS='same_everywhere_test;all_laws_bits_test'
 
-# bits_with COMPILER LEVEL: the core, and these tests.
-bits_with() { with_compiler "$1" "$2" -D LAMMPS_BINARY_DIR= -D "TALUS_UNIT_TESTS=$TALUS_BITS_TESTS"; }
+# bits_with COMPILER LEVEL [options of CMake]: the core, and these tests.
+bits_with() { with_compiler "$1" "$2" -D LAMMPS_BINARY_DIR= -D "TALUS_UNIT_TESTS=$TALUS_BITS_TESTS" "${@:3}"; }
 
 # Folder of mpi.h, for compilers without an MPI of their own.
 mpi_headers() {
