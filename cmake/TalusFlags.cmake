@@ -85,6 +85,9 @@ target_compile_options(talus_common_flags INTERFACE -Wall -Wextra)
 # registers and so passed in memory, where nothing crosses a library with them; Clang on `&` of two comparisons without a
 # branch, and on loops that it does not make vectors of where OpenMP allows it to.
 talus_add_known_flags(talus_common_flags -Wno-psabi -Wno-ignored-attributes -Wno-bitwise-instead-of-logical -Wno-pass-failed)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")    # std::stable_sort of GCC's library calls what C++17 deprecates; GCC tells of ours
+  talus_add_known_flags(talus_common_flags -Wno-deprecated-declarations)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms: in the compiler's own AVX-512 headers once they are inlined (GCC bug 105593), and about addresses of
   # constants that are copied out of an object before it ends.
