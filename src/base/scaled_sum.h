@@ -41,9 +41,11 @@ class SumScale {
 
   void add(double value, ScaledSum &to) const
   {
-    const double scaled = value * to_high, whole = std::floor(scaled);
-    to.high += static_cast<std::int64_t>(whole);
-    to.low += static_cast<std::int64_t>(std::nearbyint((scaled - whole) * digit));
+    const double scaled = value * to_high;
+    auto whole = static_cast<std::int64_t>(scaled);
+    whole -= static_cast<double>(whole) > scaled;    // floor, without a call
+    to.high += whole;
+    to.low += nearest((scaled - static_cast<double>(whole)) * digit);
   }
   double value(const ScaledSum &sum) const
   {
@@ -52,6 +54,13 @@ class SumScale {
   }
 
  private:
+  /// Of a number below 2^51: what adding 1.5 2^52 leaves.
+  static std::int64_t nearest(double value)
+  {
+    constexpr double large = 6755399441055744.0;
+    return static_cast<std::int64_t>((value + large) - large);
+  }
+
   static constexpr int digit_bits = 36, smallest = -980;    // so that scales are numbers
   static constexpr double digit = 68719476736.0;            // 2^36
 

@@ -2,6 +2,7 @@
 
 #include "fluid/drag_law.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace Talus {
@@ -37,6 +38,17 @@ double ganser(const GrainInFluid &g, double sphericity)
                re = reynolds(g) / g.porosity, both = re * k1 * k2;
   return stokes(g) * ((1.0 + 0.1118 * std::pow(both, 0.6567)) / k1 +
                       0.4305 * k2 * re * both / (24.0 * (both + 3305.0)));
+}
+
+/* Cd = 8/(Re Pc^1/2) + 16/(Re P^1/2) + 3/(Re^1/2 P^3/4) + 0.42 10^(0.4 (-lg P)^0.2)/Pc, P sphericity, Pc crosswise */
+
+double hoelzer_sommerfeld(const GrainInFluid &g)
+{
+  const double re = reynolds(g) / g.porosity, p = std::min(g.sphericity, 1.0),
+               of_pressure = 0.42 * std::pow(10.0, 0.4 * std::pow(-std::log10(p), 0.2));
+  return stokes(g) / 24.0 *
+         (8.0 / std::sqrt(g.crosswise) + 16.0 / std::sqrt(p) +
+          3.0 * std::sqrt(re) * std::pow(p, -0.75) + of_pressure * re / g.crosswise);
 }
 
 /* Cd e^(2 - chi) w pi/8 rho d^2 with Cd = (0.63 + 4.8/sqrt(Re))^2. */
@@ -121,6 +133,7 @@ enum {
   STOKES,
   SCHILLER_NAUMANN,
   GANSER,
+  HOELZER_SOMMERFELD,
   DI_FELICE,
   WEN_YU,
   ERGUN,
@@ -135,8 +148,8 @@ enum {
 const std::vector<std::string> &DragLaw::names()
 {
   static const std::vector<std::string> all{
-      "stokes", "schiller/naumann", "ganser",    "difelice", "wen/yu",
-      "ergun",  "gidaspow",         "koch/hill", "beetstra", "rong"};
+      "stokes", "schiller/naumann", "ganser",    "hoelzer/sommerfeld", "difelice", "wen/yu",
+      "ergun",  "gidaspow",         "koch/hill", "beetstra",           "rong"};
   return all;
 }
 
@@ -152,7 +165,12 @@ bool DragLaw::has_sphericity(int which)
 
 bool DragLaw::depends_on_porosity() const
 {
-  return total || law > GANSER;
+  return total || law > HOELZER_SOMMERFELD;
+}
+
+bool DragLaw::depends_on_shape() const
+{
+  return law == HOELZER_SOMMERFELD;
 }
 
 double DragLaw::coefficient(const GrainInFluid &grain) const
@@ -163,6 +181,8 @@ double DragLaw::coefficient(const GrainInFluid &grain) const
       return schiller_naumann(grain);
     case GANSER:
       return ganser(grain, sphericity);
+    case HOELZER_SOMMERFELD:
+      return hoelzer_sommerfeld(grain);
     case DI_FELICE:
       return di_felice(grain);
     case WEN_YU:

@@ -20,6 +20,8 @@
 //   koch/hill         Hill, Koch and Ladd 2001, J. Fluid Mech. 448, 213 and 243, with one line for all Reynolds numbers as in
 //                     Deen et al. 2007, Chem. Eng. Sci. 62, 28
 //   beetstra          Beetstra, van der Hoef and Kuipers 2007, AIChE J. 53, 489; grains of one size
+//   hoelzer/sommerfeld  Hoelzer and Sommerfeld 2008, Powder Technol. 184, 361, eq. 9 with the crosswise sphericity in
+//                     place of the lengthwise one; sphericities of the shape as it is turned; Re without e
 //   rong              Rong, Dong and Yu 2013, Chem. Eng. Sci. 99, 44
 
 #ifndef TALUS_FLUID_DRAG_LAW_H
@@ -36,6 +38,8 @@ struct GrainInFluid {
   double speed;       ///< w, 0 or more
   double porosity;    ///< 0 < e <= 1
   double density, viscosity;
+  /// Surface of the sphere with its volume over its own; the same of cross sections, of its own that which the fluid sees.
+  double sphericity = 1.0, crosswise = 1.0;
 };
 
 class DragLaw {
@@ -50,6 +54,8 @@ class DragLaw {
   double coefficient(const GrainInFluid &grain) const;
   bool depends_on_porosity() const;
   static bool has_sphericity(int which);
+  /// Are sphericities of grains asked for?
+  bool depends_on_shape() const;
 
  private:
   int law;

@@ -64,22 +64,24 @@ double GridCells::place(const double *x, int d) const
   return goes_round[d] ? std::clamp(inside, lo[d], hi[d]) : inside;
 }
 
-GridCells::Range GridCells::range(double from, double to, int d) const
+void GridCells::reach(double from, double to, int d, Axis &axis) const
 {
   double first = std::floor((from - lo[d]) / edge[d]), last = std::floor((to - lo[d]) / edge[d]);
   if (!goes_round[d]) {
     first = std::clamp(first, 0.0, cells[d] - 1.0);
     last = std::clamp(last, first, cells[d] - 1.0);
   }
-  return {static_cast<int>(first), static_cast<int>(last - first) + 1};
+  axis.first = static_cast<int>(first);
+  axis.count = static_cast<int>(last - first) + 1;
+  axis.offsets.clear();
+  axis.values.clear();
+  for (int k = 0; k < axis.count; k++) axis.offsets.push_back(offset_of(axis.first + k, d));
 }
 
-int GridCells::number_of(int x, int y, int z) const
+int GridCells::offset_of(int cell, int d) const
 {
-  int at[3] = {x, y, z};
-  for (int d = 0; d < 3; d++)
-    if (goes_round[d]) at[d] = (at[d] % cells[d] + cells[d]) % cells[d];
-  return (at[2] * cells[1] + at[1]) * cells[0] + at[0];
+  const int at = goes_round[d] ? (cell % cells[d] + cells[d]) % cells[d] : cell;
+  return d == 0 ? at : (d == 1 ? at * cells[0] : at * cells[1] * cells[0]);
 }
 
 bool GridCells::find_shares(const double *given, double radius, std::vector<Share> &shares) const
@@ -102,28 +104,30 @@ bool GridCells::find_shares(const double *given, double radius, std::vector<Shar
 
 void GridCells::divide_ball(const double (&x)[3], double radius, std::vector<Share> &shares) const
 {
-  Range ranges[3];
-  std::vector<double> faces[3];
+  thread_local Axis axes[3];    // memory is kept: there are many grains
+  thread_local std::vector<double> below;
   constexpr double beyond = 2.0;
   for (int d = 0; d < 3; d++) {
-    const Range of_axis = ranges[d] = range(x[d] - radius, x[d] + radius, d);
-    for (int k = 0; k <= of_axis.count; k++) {
-      const int cell = of_axis.first + k;
+    Axis &axis = axes[d];
+    reach(x[d] - radius, x[d] + radius, d, axis);
+    for (int k = 0; k <= axis.count; k++) {
+      const int cell = axis.first + k;
       const double face = lo[d] + cell * edge[d];
       const bool of_grid = !goes_round[d] && (cell == 0 || cell == cells[d]);
-      const bool outer = !of_grid && (k == 0 || k == of_axis.count);
-      faces[d].push_back(outer ? (k ? beyond : -beyond) : (face - x[d]) / radius);
+      const bool outer = !of_grid && (k == 0 || k == axis.count);
+      axis.values.push_back(outer ? (k ? beyond : -beyond) : (face - x[d]) / radius);
     }
   }
-  const int nx = ranges[0].count, ny = ranges[1].count, nz = ranges[2].count;
+  const auto &[along_x, along_y, along_z] = axes;
+  const int nx = along_x.count, ny = along_y.count, nz = along_z.count;
   if (nx == 1 && ny == 1 && nz == 1) {
-    shares.push_back({number_of(ranges[0].first, ranges[1].first, ranges[2].first), 1.0});
+    shares.push_back({along_x.offsets[0] + along_y.offsets[0] + along_z.offsets[0], 1.0});
     return;
   }
-  std::vector<double> below;
-  for (const double c : faces[2])
-    for (const double b : faces[1])
-      for (const double a : faces[0]) below.push_back(ball_below(a, b, c));
+  below.clear();
+  for (const double c : along_z.values)
+    for (const double b : along_y.values)
+      for (const double a : along_x.values) below.push_back(ball_below(a, b, c));
   const int row = nx + 1, layer = row * (ny + 1);
   double sum = 0.0;
   for (int k = 0; k < nz; k++)
@@ -135,44 +139,52 @@ void GridCells::divide_ball(const double (&x)[3], double radius, std::vector<Sha
         constexpr double smallest = 1e-14;    // what is less is rounding
         if (part < smallest) continue;
         sum += part;
-        shares.push_back(
-            {number_of(ranges[0].first + i, ranges[1].first + j, ranges[2].first + k), part});
+        shares.push_back({along_x.offsets[i] + along_y.offsets[j] + along_z.offsets[k], part});
       }
   for (Share &share : shares) share.weight /= sum;
 }
 
 void GridCells::spread_gaussian(const double (&x)[3], std::vector<Share> &shares) const
 {
-  Range ranges[3];
-  std::vector<double> along[3];
+  thread_local Axis axes[3];
   for (int d = 0; d < 3; d++) {
-    const double reach = FluidKernel::cut * kernel.width, from = x[d] - reach, to = x[d] + reach;
-    const Range of_axis = ranges[d] = range(from, to, d);
-    const auto below = [&](double face) {
+    Axis &axis = axes[d];
+    const double out = FluidKernel::cut * kernel.width, from = x[d] - out, to = x[d] + out;
+    reach(from, to, d, axis);
+    if (axis.count == 1) {
+      axis.values.push_back(1.0);
+      continue;
+    }
+    const auto below = [&](int k) {
+      const double face = lo[d] + (axis.first + k) * edge[d];
       return std::erf((std::clamp(face, from, to) - x[d]) / kernel.width);
     };
-    for (int k = 0; k < of_axis.count && of_axis.count > 1; k++) {
-      const double face = lo[d] + (of_axis.first + k) * edge[d];
-      along[d].push_back(std::max(below(face + edge[d]) - below(face), 0.0));
+    double before = below(0);
+    for (int k = 0; k < axis.count; k++) {
+      const double next = below(k + 1);
+      axis.values.push_back(std::max(next - before, 0.0));
+      before = next;
     }
-    if (of_axis.count == 1) along[d].push_back(1.0);
-    normalize(along[d]);
+    normalize(axis.values);
   }
-  for (int k = 0; k < ranges[2].count; k++)
-    for (int j = 0; j < ranges[1].count; j++)
-      for (int i = 0; i < ranges[0].count; i++)
-        shares.push_back({number_of(ranges[0].first + i, ranges[1].first + j, ranges[2].first + k),
-                          along[0][i] * along[1][j] * along[2][k]});
+  const auto &[along_x, along_y, along_z] = axes;
+  for (int k = 0; k < along_z.count; k++)
+    for (int j = 0; j < along_y.count; j++) {
+      const int offset = along_z.offsets[k] + along_y.offsets[j];
+      for (int i = 0; i < along_x.count; i++)
+        shares.push_back({offset + along_x.offsets[i],
+                          along_x.values[i] * along_y.values[j] * along_z.values[k]});
+    }
 }
 
 int GridCells::nearest_to(const double *x) const
 {
-  int at[3];
+  int number = 0;
   for (int d = 0; d < 3; d++) {
     const double cell = std::floor((place(x, d) - lo[d]) / edge[d]);
-    at[d] = static_cast<int>(std::clamp(cell, 0.0, cells[d] - 1.0));
+    number += offset_of(static_cast<int>(std::clamp(cell, 0.0, cells[d] - 1.0)), d);
   }
-  return number_of(at[0], at[1], at[2]);
+  return number;
 }
 
 }    // namespace Talus

@@ -30,13 +30,16 @@ class GridCells : public FluidCells {
   int nearest_to(const double *x) const override;
 
  private:
-  /// Cells along one axis that a kernel reaches, before the grid goes round.
-  struct Range {
+  /// Cells along one axis that a kernel reaches: the first one, before the grid goes round; what each adds to the number
+  /// of a cell; and values of cells, or of the faces between them.
+  struct Axis {
     int first, count;
+    std::vector<int> offsets;
+    std::vector<double> values;
   };
   double place(const double *x, int d) const;
-  Range range(double from, double to, int d) const;
-  int number_of(int x, int y, int z) const;
+  void reach(double from, double to, int d, Axis &axis) const;
+  int offset_of(int cell, int d) const;
   void divide_ball(const double (&x)[3], double radius, std::vector<Share> &shares) const;
   void spread_gaussian(const double (&x)[3], std::vector<Share> &shares) const;
 

@@ -43,6 +43,8 @@ const Published published[] = {
      {9.424777960769379e-06, 3.392920065876977e-08, 5.089380098815465e-07, 4.712388980384690e-05}},
     {"schiller/naumann",
      {1.630119782900984e-05, 4.712027297620198e-08, 4.350770705782137e-06, 3.455751918948773e-03}},
+    {"hoelzer/sommerfeld",
+     {1.479958470357756e-05, 4.478654486957609e-08, 4.282745675531952e-06, 3.718343236040483e-03}},
     {"difelice",
      {8.886304496118027e-05, 6.463699166322320e-08, 1.097304956092598e-05, 4.277567997740277e-03}},
     {"wen/yu",
@@ -72,14 +74,29 @@ TEST(DragLaw, Published)
           << one.name << " " << k;
 }
 
+TEST(DragLaw, Shapes)
+{
+  const double expected[2][4] = {
+      {2.038211313384838e-05, 5.696990632253509e-08, 9.834686455201172e-06, 1.029052759253362e-02},
+      {1.883977486161024e-05, 5.517490877648890e-08, 6.266302576734054e-06, 5.617088607920156e-03}};
+  const double sphericities[2][2] = {{0.8, 0.6}, {0.6, 1.3}};
+  for (int shape = 0; shape < 2; shape++)
+    for (int k = 0; k < 4; k++) {
+      GrainInFluid grain = grains[k];
+      grain.sphericity = sphericities[shape][0];
+      grain.crosswise = sphericities[shape][1];
+      EXPECT_NEAR(law("hoelzer/sommerfeld").coefficient(grain) / expected[shape][k], 1.0, 1e-13);
+    }
+}
+
 /* Dallavalle's coefficient at rest is that of Stokes times 4.8^2/24. */
 
 TEST(DragLaw, GrainAloneAtRest)
 {
   const GrainInFluid alone{1e-3, 0.0, 1.0, water, of_water};
   const double stokes = 3.0 * pi * of_water * 1e-3;
-  for (const char *name :
-       {"stokes", "schiller/naumann", "wen/yu", "gidaspow", "koch/hill", "beetstra"})
+  for (const char *name : {"stokes", "schiller/naumann", "hoelzer/sommerfeld", "wen/yu", "gidaspow",
+                           "koch/hill", "beetstra"})
     EXPECT_NEAR(law(name).coefficient(alone) / stokes, 1.0, 1e-14) << name;
   for (const char *name : {"difelice", "rong"})
     EXPECT_NEAR(law(name).coefficient(alone) / stokes, 4.8 * 4.8 / 24.0, 1e-14) << name;

@@ -5,6 +5,7 @@
 #include "base/scaled_sum.h"
 #include "system/host/particle_volume.h"
 #include "system/loads/external_loads.h"
+#include "system/loads/shape_shadows.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -73,8 +74,8 @@ GrainsInFluid::GrainsInFluid(LAMMPS *lmp, std::unique_ptr<FluidCells> all_cells,
                              std::vector<OwnerExchange::Home> homes, int group, MPI_Comm ranks) :
     Pointers(lmp),
     cells(std::move(all_cells)), own_cells(numbers_by_place(homes, ranks)),
-    exchange(ranks, std::move(homes)), touched(cells->size()),
-    periods(periods_of(*Pointers::domain)), group_bits(group)
+    exchange(ranks, std::move(homes)), shares(*cells), periods(periods_of(*Pointers::domain)),
+    group_bits(group)
 {
 }
 
@@ -92,29 +93,32 @@ std::string GrainsInFluid::problem_of_box() const
                "again";
 }
 
-std::string GrainsInFluid::problem_of_places() const
+/* Between two calls grains may have moved or not: they are asked, which costs little. */
+
+void GrainsInFluid::update_shares()
 {
-  std::vector<FluidCells::Share> unused;
+  std::vector<GrainShares::Grain> grains(atom->nlocal);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_in_group(i)) continue;
     const double *const x = atom->x[i];
-    if (cells->find_shares(x, atom->radius[i], unused)) continue;
-    return fmt::format(
-        "particle {} at {:.6g} {:.6g} {:.6g} is outside of the cells of the fluid: give cells that "
-        "cover the grains, points with a wider kernel, or a group of those in the fluid with the "
-        "word group of the kernel",
-        atom->tag[i], x[0], x[1], x[2]);
+    grains[i] = {{x[0], x[1], x[2]}, atom->radius[i], is_in_group(i)};
   }
-  return "";
+  shares.update(std::move(grains));
+}
+
+std::string GrainsInFluid::problem_of_places()
+{
+  update_shares();
+  const int i = shares.first_outside();
+  if (i < 0) return "";
+  const double *const x = atom->x[i];
+  return fmt::format(
+      "particle {} at {:.6g} {:.6g} {:.6g} is outside of the cells of the fluid: give cells that "
+      "cover the grains, points with a wider kernel, or a group of those in the fluid with the "
+      "word group of the kernel",
+      atom->tag[i], x[0], x[1], x[2]);
 }
 
 /* ---- from grains to cells ------------------------------------------------------------------- */
-
-void GrainsInFluid::find_shares(int i)
-{
-  if (!cells->find_shares(atom->x[i], atom->radius[i], shares))
-    shares.assign(1, {cells->nearest_to(atom->x[i]), 1.0});
-}
 
 /* No share is larger than one, but for rounding. */
 
@@ -128,18 +132,17 @@ std::vector<double> GrainsInFluid::sum(int width, const Amounts &amounts)
   std::vector<SumScale> scales;
   for (const double bound : largest) scales.emplace_back(bound * (1.0 + rounding));
 
-  touched.clear();
-  std::vector<ScaledSum> sums;
+  update_shares();
+  std::vector<ScaledSum> sums(shares.touched_cells().size() * width);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!amounts(i, of_one.data())) continue;
-    find_shares(i);
-    for (const FluidCells::Share &share : shares) {
-      const std::size_t first = static_cast<std::size_t>(touched.slot(share.cell)) * width;
+    shares.for_each(i, [&](int slot, double share) {
+      const std::size_t first = static_cast<std::size_t>(slot) * width;
       if (first == sums.size()) sums.resize(first + width);
-      for (int k = 0; k < width; k++) scales[k].add(share.weight * of_one[k], sums[first + k]);
-    }
+      for (int k = 0; k < width; k++) scales[k].add(share * of_one[k], sums[first + k]);
+    });
   }
-  const std::vector<ScaledSum> totals = exchange.to_owners(touched.cells(), sums, width);
+  const std::vector<ScaledSum> totals = exchange.to_owners(shares.touched_cells(), sums, width);
   std::vector<double> field(totals.size());
   for (std::size_t n = 0; n < totals.size(); n++)
     field[n] = scales[n % width].value(totals[n]) / cells->volume(own_cells[n / width]);
@@ -188,24 +191,33 @@ std::vector<double> GrainsInFluid::find_coefficients(const FluidLoads &loads)
 
 std::vector<double> GrainsInFluid::values_at_grains(const std::vector<double> &of_cells, int width)
 {
-  touched.clear();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!is_in_group(i)) continue;
-    find_shares(i);
-    for (const FluidCells::Share &share : shares) static_cast<void>(touched.slot(share.cell));
-  }
-  const std::vector<double> near = exchange.from_owners(touched.cells(), of_cells, width);
+  update_shares();
+  const std::vector<double> near = exchange.from_owners(shares.touched_cells(), of_cells, width);
   std::vector<double> values(static_cast<std::size_t>(atom->nlocal) * width, 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_in_group(i)) continue;
-    find_shares(i);
     double *const to = &values[static_cast<std::size_t>(i) * width];
-    for (const FluidCells::Share &share : shares) {
-      const double *const from = &near[static_cast<std::size_t>(touched.slot(share.cell)) * width];
-      for (int k = 0; k < width; k++) to[k] += share.weight * from[k];
-    }
+    shares.for_each(i, [&](int slot, double share) {
+      const double *const from = &near[static_cast<std::size_t>(slot) * width];
+      for (int k = 0; k < width; k++) to[k] += share * from[k];
+    });
   }
   return values;
+}
+
+/* Seen along the slip, or where there is none along x. */
+
+void GrainsInFluid::tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
+                               ShapeShadows &shadows, GrainInFluid &grain) const
+{
+  const int type = atom->type[i];
+  if (!shapes || !shapes->is_shaped(type)) return;
+  const ParticleShape &shape = *shapes->table().of(type);
+  const double *const turned = shapes->orientations()[i];
+  grain.sphericity = shadows.sphericity(type, shape);
+  if (std::all_of(turned, turned + 4, [](double q) { return q == 0.0; })) return;    // none yet
+  const Vector3<double> along = grain.speed > 0.0 ? slip : Vector3<double>{1.0, 0.0, 0.0};
+  grain.crosswise = shadows.crosswise(type, shape, turned, along);
 }
 
 FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLaw &law,
@@ -225,15 +237,18 @@ FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLa
   const std::vector<double> at_grains = values_at_grains(of_cells, width);
 
   FluidLoads loads;
+  ShapeShadows shadows;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_in_group(i)) continue;
     const double *const at = &at_grains[static_cast<std::size_t>(i) * width], *const u = at + 1;
     const double *const v = atom->v[i], volume = particle_volume(*atom, shapes, i);
     const double speed = std::sqrt((u[0] - v[0]) * (u[0] - v[0]) + (u[1] - v[1]) * (u[1] - v[1]) +
                                    (u[2] - v[2]) * (u[2] - v[2]));
-    const double c =
-        law.coefficient({diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
-                         fields.density, fields.viscosity});
+    GrainInFluid grain{diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
+                       fields.density, fields.viscosity};
+    if (law.depends_on_shape())
+      tell_shape(shapes, i, {u[0] - v[0], u[1] - v[1], u[2] - v[2]}, shadows, grain);
+    const double c = law.coefficient(grain);
     if (c > 0.0) {
       loads.ids.push_back(atom->tag[i]);
       loads.coefficient.push_back(c);

@@ -12,10 +12,11 @@
 #ifndef TALUS_SYSTEM_LOADS_GRAINS_IN_FLUID_H
 #define TALUS_SYSTEM_LOADS_GRAINS_IN_FLUID_H
 
+#include "base/linear_algebra.h"
 #include "exchange/owner_exchange.h"
 #include "fluid/drag_law.h"
 #include "fluid/fluid_cells.h"
-#include "fluid/touched_cells.h"
+#include "fluid/grain_shares.h"
 
 #include "pointers.h"
 
@@ -29,6 +30,7 @@ namespace Talus {
 
 class ExternalLoads;
 class ShapedParticles;
+class ShapeShadows;
 
 /// What the cells of this rank have, in the order of places, 3 each. Gradient of the pressure: nullptr for none.
 struct FluidFields {
@@ -64,7 +66,7 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   /// To be asked first: "", or why the box is another one than that of the cells; and of this rank, which grain is
   /// outside of them.
   std::string problem_of_box() const;
-  std::string problem_of_places() const;
+  std::string problem_of_places();
   /// Collective. Solid fraction of the cells of this rank, and with `moving` the volume that moves, per volume and
   /// time, 3 each behind it.
   std::vector<double> find_solid(const ShapedParticles *shapes, bool moving);
@@ -82,17 +84,18 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   using Amounts = std::function<bool(int i, double *values)>;
 
   bool is_in_group(int i) const;
-  void find_shares(int i);
+  void update_shares();
+  void tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
+                  ShapeShadows &shadows, GrainInFluid &grain) const;
   std::vector<double> sum(int width, const Amounts &amounts);
   std::vector<double> values_at_grains(const std::vector<double> &of_cells, int width);
 
   std::unique_ptr<FluidCells> cells;
   std::vector<int> own_cells;    // number of each place
   OwnerExchange exchange;
-  TouchedCells touched;
+  GrainShares shares;
   FluidCells::Periods periods;
   int group_bits;
-  std::vector<FluidCells::Share> shares;    // of the last grain
 };
 
 }    // namespace Talus
