@@ -318,6 +318,15 @@ class Fluid:
         self.partner._call("put_fluid", _doubles(velocity, 3 * n), _doubles(pressure_gradient, 3 * n), _doubles(gravity, 3), coefficient)
         return self._shaped(coefficient, 1) if self.partner.lives_here else None
 
+    def put_heat(self, law, velocity, temperature, conductivity, heat_capacity):
+        """Heat of the fluid by the law "gunn" or "ranz/marshall": velocity (3) and temperature in the cells, conductivity and heat
+        capacity (per mass) of the fluid. Returns the power into grains per volume."""
+        n = self.num_cells
+        exchange = (ctypes.c_double * n)()
+        self.partner._call("put_fluid_heat", ctypes.c_char_p(law.encode()), _doubles(velocity, 3 * n), _doubles(temperature, n),
+                           ctypes.c_double(conductivity), ctypes.c_double(heat_capacity), exchange)
+        return self._shaped(exchange, 1) if self.partner.lives_here else None
+
     def _shaped(self, numbers, columns):
         return _array(numbers, *self.shape, columns) if columns > 1 else _array(numbers, *self.shape)
 

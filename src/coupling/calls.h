@@ -81,7 +81,11 @@
   CALL(put_fluid,                                                                                  \
        (talus_partner * partner, const double *velocity, const double *pressure_gradient,          \
         const double *gravity, double *coefficient),                                               \
-       (partner, velocity, pressure_gradient, gravity, coefficient))
+       (partner, velocity, pressure_gradient, gravity, coefficient))                               \
+  CALL(put_fluid_heat,                                                                             \
+       (talus_partner * partner, const char *law, const double *velocity,                          \
+        const double *temperature, double conductivity, double heat_capacity, double *exchange),   \
+       (partner, law, velocity, temperature, conductivity, heat_capacity, exchange))
 
 namespace Talus {
 

@@ -44,14 +44,14 @@ std::string problem_of(const char *what, const double *given, int count, int ran
   return "";
 }
 
-/// Three numbers for each cell that this rank owns.
+/// `width` numbers for each cell that this rank owns.
 std::vector<double> field_of(talus_partner &partner, const PartnerFluid &fluid, const char *what,
-                             const double *given)
+                             const double *given, int width)
 {
-  if (fluid.whole) return partner.numbers_of(what, given, 3 * fluid.num_cells);
+  const int count = width * fluid.num_cells;
+  if (fluid.whole) return partner.numbers_of(what, given, count);
   int me;
   MPI_Comm_rank(partner.world(), &me);
-  const int count = 3 * fluid.num_cells;
   partner.refuse_if(problem_of(what, given, count, me));
   return count ? std::vector<double>(given, given + count) : std::vector<double>();
 }
@@ -69,6 +69,20 @@ void give_columns(const talus_partner &partner, const PartnerFluid &fluid, doubl
     broadcast(columns.data(), columns.size(), MPI_DOUBLE, 0, partner.world());
   }
   partner.give(to, columns);
+}
+
+const PartnerFluid &fluid_with_law(talus_partner &partner)
+{
+  const PartnerFluid &fluid = fluid_with_cells(partner, true);
+  if (!fluid.has_law) throw Refusal("there is no law of drag: call talus_set_drag_law() before");
+  return fluid;
+}
+
+double above_zero(talus_partner &partner, const char *what, double given)
+{
+  const double value = partner.number_of(what, given);
+  if (!(value > 0.0)) throw Refusal(fmt::format("{} is {:.6g}, expected more than 0", what, value));
+  return value;
 }
 
 /// Volume that moves becomes the velocity.
@@ -108,14 +122,13 @@ int call_put_fluid(talus_partner *partner, const double *velocity, const double 
                    const double *gravity, double *coefficient)
 {
   return partner->collective("talus_put_fluid", [&] {
-    const PartnerFluid &fluid = fluid_with_cells(*partner, true);
-    if (!fluid.has_law) throw Refusal("there is no law of drag: call talus_set_drag_law() before");
+    const PartnerFluid &fluid = fluid_with_law(*partner);
     const bool with_gradient = partner->is_given(pressure_gradient != nullptr),
                with_gravity = partner->is_given(gravity != nullptr);
-    const std::vector<double> velocities = field_of(*partner, fluid, "velocity", velocity);
+    const std::vector<double> velocities = field_of(*partner, fluid, "velocity", velocity, 3);
     std::vector<double> gradients, acceleration;
     if (with_gradient)
-      gradients = field_of(*partner, fluid, "pressure_gradient", pressure_gradient);
+      gradients = field_of(*partner, fluid, "pressure_gradient", pressure_gradient, 3);
     if (with_gravity) acceleration = partner->numbers_of("gravity", gravity, 3);
 
     const FluidLoads found =
@@ -129,7 +142,36 @@ int call_put_fluid(talus_partner *partner, const double *velocity, const double 
     loads.put_drag(partner->number(), dragged, found.coefficient.data(), found.velocity.data());
     loads.put_forces(partner->number(), pushed, found.force.data(), nullptr);
     if (partner->is_given(coefficient != nullptr))
-      give_columns(*partner, fluid, coefficient, fluid.grains->find_coefficients(found), 1, 0, 1);
+      give_columns(*partner, fluid, coefficient, fluid.grains->sum_of(found.ids, found.coefficient),
+                   1, 0, 1);
+  });
+}
+
+int call_put_fluid_heat(talus_partner *partner, const char *law, const double *velocity,
+                        const double *temperature, double conductivity, double heat_capacity,
+                        double *exchange)
+{
+  return partner->collective("talus_put_fluid_heat", [&] {
+    const PartnerFluid &fluid = fluid_with_law(*partner);
+    const std::string name = partner->text_of("law", law);
+    const auto &names = HeatLaw::names();
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end())
+      throw Refusal("law: unknown law of heat '" + name + "', expected " + names[0] + " or " +
+                    names[1]);
+    const double k = above_zero(*partner, "conductivity", conductivity),
+                 capacity = above_zero(*partner, "heat_capacity", heat_capacity);
+    require_temperatures(*partner);
+    const std::vector<double> velocities = field_of(*partner, fluid, "velocity", velocity, 3),
+                              temperatures =
+                                  field_of(*partner, fluid, "temperature", temperature, 1);
+    const HeatLoads found = fluid.grains->find_heat(
+        partner->system().shapes(), HeatLaw(static_cast<int>(known - names.begin())),
+        {velocities, temperatures, fluid.density, fluid.viscosity, k, capacity});
+    loads_of(*partner).put_heat(partner->number(), ParticlesById(&partner->instance(), found.ids),
+                                found.flow.data());
+    if (partner->is_given(exchange != nullptr))
+      give_columns(*partner, fluid, exchange, fluid.grains->sum_of(found.ids, found.flow), 1, 0, 1);
   });
 }
 

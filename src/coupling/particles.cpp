@@ -34,6 +34,13 @@ ExternalLoads &loads_of(talus_partner &partner)
   return loads;
 }
 
+void require_temperatures(const talus_partner &partner)
+{
+  if (!partner.instance().atom->heatflow_flag)
+    throw Refusal("particles have no temperature: use 'fix property/atom temperature heatflow' "
+                  "and 'fix heat/flow'");
+}
+
 namespace {
 
 std::vector<std::int64_t> ids_of(talus_partner &partner, std::int64_t n, const std::int64_t *id)
@@ -113,9 +120,7 @@ int call_put_heat(talus_partner *partner, int64_t n, const int64_t *id, const do
     const std::vector<std::int64_t> ids = ids_of(*partner, n, id);
     const std::vector<double> flows =
         partner->numbers_of("flow", flow, static_cast<std::int64_t>(ids.size()));
-    if (!partner->instance().atom->heatflow_flag)
-      throw Refusal("particles have no temperature: use 'fix property/atom temperature heatflow' "
-                    "and 'fix heat/flow'");
+    require_temperatures(*partner);
     const ParticlesById particles(&partner->instance(), ids);
     require_all(particles, true);
     loads_of(*partner).put_heat(partner->number(), particles, flows.data());

@@ -14,6 +14,8 @@ class ExternalLoads;
 /// Within a call, see talus_partner: what is put on particles. Throws Refusal where they cannot bear
 /// anything. The next advance may have to begin with a set-up.
 ExternalLoads &loads_of(talus_partner &partner);
+/// Throws Refusal where particles have no temperature.
+void require_temperatures(const talus_partner &partner);
 
 }    // namespace Talus
 

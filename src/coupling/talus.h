@@ -180,6 +180,13 @@ int talus_get_grains(talus_partner *partner, double *solid, double *velocity, do
    time/(distance volume)), or NULL. */
 int talus_put_fluid(talus_partner *partner, const double *velocity, const double *pressure_gradient,
                     const double *gravity, double *coefficient);
+/* Heat of the fluid, until the next call of this, in place of what this partner has put with talus_put_heat(). law: "gunn" or
+   "ranz/marshall"; velocity (3 each) and temperature in the cells of this rank; conductivity (power/(distance temperature)) and
+   heat capacity (energy/(mass temperature)) of the fluid, whose density and viscosity are those of its drag. exchange: power
+   into grains per volume of the cell, or NULL. */
+int talus_put_fluid_heat(talus_partner *partner, const char *law, const double *velocity,
+                         const double *temperature, double conductivity, double heat_capacity,
+                         double *exchange);
 
 #ifdef __cplusplus
 }

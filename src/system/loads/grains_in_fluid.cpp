@@ -30,6 +30,12 @@ double diameter_of(double volume)
   return std::cbrt(6.0 / pi * volume);
 }
 
+double distance(const double *a, const double *b)
+{
+  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                   (a[2] - b[2]) * (a[2] - b[2]));
+}
+
 std::vector<int> numbers_by_place(const std::vector<OwnerExchange::Home> &homes, MPI_Comm ranks)
 {
   int me;
@@ -173,15 +179,16 @@ std::vector<double> GrainsInFluid::take_exchange(ExternalLoads &loads, int partn
   return field;
 }
 
-std::vector<double> GrainsInFluid::find_coefficients(const FluidLoads &loads)
+std::vector<double> GrainsInFluid::sum_of(const std::vector<std::int64_t> &ids,
+                                          const std::vector<double> &values)
 {
   std::vector<double> of_particle(atom->nlocal, 0.0);
-  std::size_t next = 0;    // they are in the order of particles
-  for (int i = 0; i < atom->nlocal && next < loads.ids.size(); i++)
-    if (atom->tag[i] == loads.ids[next]) of_particle[i] = loads.coefficient[next++];
+  std::size_t next = 0;
+  for (int i = 0; i < atom->nlocal && next < ids.size(); i++)
+    if (atom->tag[i] == ids[next]) of_particle[i] = values[next++];
   return sum(1, [&](int i, double *amount) {
     amount[0] = of_particle[i];
-    return amount[0] > 0.0;
+    return amount[0] != 0.0;
   });
 }
 
@@ -205,6 +212,11 @@ std::vector<double> GrainsInFluid::values_at_grains(const std::vector<double> &o
   return values;
 }
 
+std::vector<double> GrainsInFluid::solid_for(bool needed, const ShapedParticles *shapes)
+{
+  return needed ? find_solid(shapes, false) : std::vector<double>(num_cells(), 0.0);
+}
+
 /* Seen along the slip, or where there is none along x. */
 
 void GrainsInFluid::tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
@@ -225,8 +237,7 @@ FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLa
 {
   const bool has_gradient = fields.pressure_gradient != nullptr;
   const int width = has_gradient ? 7 : 4;
-  const std::vector<double> solid =
-      law.depends_on_porosity() ? find_solid(shapes, false) : std::vector<double>(num_cells(), 0.0);
+  const std::vector<double> solid = solid_for(law.depends_on_porosity(), shapes);
   std::vector<double> of_cells;
   for (int n = 0; n < num_cells(); n++) {
     of_cells.push_back(1.0 - solid[n]);
@@ -242,8 +253,7 @@ FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLa
     if (!is_in_group(i)) continue;
     const double *const at = &at_grains[static_cast<std::size_t>(i) * width], *const u = at + 1;
     const double *const v = atom->v[i], volume = particle_volume(*atom, shapes, i);
-    const double speed = std::sqrt((u[0] - v[0]) * (u[0] - v[0]) + (u[1] - v[1]) * (u[1] - v[1]) +
-                                   (u[2] - v[2]) * (u[2] - v[2]));
+    const double speed = distance(u, v);
     GrainInFluid grain{diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
                        fields.density, fields.viscosity};
     if (law.depends_on_shape())
@@ -260,6 +270,34 @@ FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLa
       loads.force.push_back(-volume *
                             ((has_gradient ? at[4 + d] : 0.0) +
                              (fields.gravity ? fields.density * fields.gravity[d] : 0.0)));
+  }
+  return loads;
+}
+
+HeatLoads GrainsInFluid::find_heat(const ShapedParticles *shapes, const HeatLaw &law,
+                                   const FluidHeat &fields)
+{
+  constexpr double pi = 3.14159265358979323846;
+  const std::vector<double> solid = solid_for(law.depends_on_porosity(), shapes);
+  std::vector<double> of_cells;
+  for (int n = 0; n < num_cells(); n++) {
+    const double *const u = &fields.velocity[3 * n];
+    of_cells.insert(of_cells.end(), {1.0 - solid[n], u[0], u[1], u[2], fields.temperature[n]});
+  }
+  const std::vector<double> at_grains = values_at_grains(of_cells, 5);
+  const double prandtl = fields.heat_capacity * fields.viscosity / fields.conductivity;
+
+  HeatLoads loads;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_in_group(i)) continue;
+    const double *const at = &at_grains[static_cast<std::size_t>(i) * 5];
+    const double d = diameter_of(particle_volume(*atom, shapes, i));
+    const double nusselt =
+        law.nusselt({d, distance(at + 1, atom->v[i]), std::clamp(at[0], least_porosity, 1.0),
+                     fields.density, fields.viscosity},
+                    prandtl);
+    loads.ids.push_back(atom->tag[i]);
+    loads.flow.push_back(nusselt * pi * d * fields.conductivity * (at[4] - atom->temperature[i]));
   }
   return loads;
 }

@@ -17,6 +17,7 @@
 #include "fluid/drag_law.h"
 #include "fluid/fluid_cells.h"
 #include "fluid/grain_shares.h"
+#include "fluid/heat_law.h"
 
 #include "pointers.h"
 
@@ -45,6 +46,18 @@ struct FluidLoads {
   std::vector<double> coefficient, velocity;
   std::vector<std::int64_t> pushed;
   std::vector<double> force;
+};
+
+/// What the cells of this rank have for heat, in the order of places: velocity 3 each.
+struct FluidHeat {
+  const std::vector<double> &velocity, &temperature;
+  double density, viscosity, conductivity, heat_capacity;    ///< the last one per mass
+};
+
+/// Power into particles of this rank, by ID.
+struct HeatLoads {
+  std::vector<std::int64_t> ids;
+  std::vector<double> flow;
 };
 
 class GrainsInFluid : protected LAMMPS_NS::Pointers {
@@ -76,8 +89,11 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   /// Collective. What these fields do to grains with their present velocities.
   FluidLoads find_loads(const ShapedParticles *shapes, const DragLaw &law,
                         const FluidFields &fields);
-  /// Collective. Sum of coefficients per volume of the cells of this rank.
-  std::vector<double> find_coefficients(const FluidLoads &loads);
+  /// Collective. What this fluid gives grains with their present velocities and temperatures, which they have.
+  HeatLoads find_heat(const ShapedParticles *shapes, const HeatLaw &law, const FluidHeat &fields);
+  /// Collective. Sum per volume of the cells of this rank of what particles have, by ID, in the order of particles.
+  std::vector<double> sum_of(const std::vector<std::int64_t> &ids,
+                             const std::vector<double> &values);
 
  private:
   /// amounts(i, values) says what a particle has, and returns whether it counts.
@@ -87,6 +103,7 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   void update_shares();
   void tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
                   ShapeShadows &shadows, GrainInFluid &grain) const;
+  std::vector<double> solid_for(bool needed, const ShapedParticles *shapes);
   std::vector<double> sum(int width, const Amounts &amounts);
   std::vector<double> values_at_grains(const std::vector<double> &of_cells, int width);
 
