@@ -1,6 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=600
-"""Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap.
+"""Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap,
+grains in a fluid.
 Those that take longer are in test_problems_long."""
 
 import unittest
@@ -30,6 +31,9 @@ class Problems(unittest.TestCase):
 
     def test_repose(self):
         run_small(self, "repose")
+
+    def test_fluid(self):
+        run_small(self, "fluid")
 
 
 if __name__ == "__main__":
