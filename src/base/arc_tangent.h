@@ -24,9 +24,23 @@ template <class Real> TALUS_INLINE Real arc_tangent_of_small(Real t)
   return t + t * (t2 * odd + t4 * even);
 }
 
-/// The angle between the x-axis and (x, y), in -pi ... pi with the sign of y, to a relative error of three units in
-/// the last place; 0 at the origin.
-template <class Real> TALUS_INLINE Real arc_tangent(Real y, Real x)
+namespace arc_tangent_detail {
+
+template <class Real> TALUS_INLINE auto is_tiny(Real y, Real x)
+{
+  return magnitude(y) * 32.0 <= x;
+}
+
+/// Of |y| <= x/32, six terms of the same series: the next one is below 1e-19 of the first.
+template <class Real> TALUS_INLINE Real of_tiny(Real y, Real x)
+{
+  const Real t = y / select(x > splat<Real>(0.0), x, splat<Real>(1.0)), t2 = t * t;
+  Real sum = splat<Real>(-1.0 / 11.0);
+  for (int n = 9; n >= 3; n -= 2) sum = sum * t2 + (n % 4 == 1 ? 1.0 : -1.0) / n;
+  return t + t * (t2 * sum);
+}
+
+template <class Real> TALUS_INLINE Real of_any(Real y, Real x)
 {
   constexpr double pi = 3.14159265358979323846, tangent_of_eighth = 0.41421356237309504880;
   const Real zero = splat<Real>(0.0), up = magnitude(y), across = magnitude(x);
@@ -40,6 +54,24 @@ template <class Real> TALUS_INLINE Real arc_tangent(Real y, Real x)
   const Real quadrant = select(steep, 0.5 * pi - octant, octant);
   const Real half = select(x < zero, pi - quadrant, quadrant);
   return select(y < zero, -half, half);
+}
+
+}    // namespace arc_tangent_detail
+
+/// The angle between the x-axis and (x, y), in -pi ... pi with the sign of y, to a relative error of three units in
+/// the last place; 0 at the origin. Faster if all are below 1/32; the bits of one do not depend on the others.
+TALUS_INLINE double arc_tangent(double y, double x)
+{
+  using namespace arc_tangent_detail;
+  return is_tiny(y, x) ? of_tiny(y, x) : of_any(y, x);
+}
+TALUS_INLINE Vec8 arc_tangent(Vec8 y, Vec8 x)
+{
+  using namespace arc_tangent_detail;
+  constexpr unsigned all = 0xFF;
+  const auto tiny = is_tiny(y, x);
+  const Vec8 found = of_tiny(y, x);
+  return bits_of(tiny) == all ? found : select(tiny, found, of_any(y, x));
 }
 
 }    // namespace Talus

@@ -4,6 +4,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "fix_bond_history.h"
 #include "force.h"
 #include "lammps.h"
@@ -47,7 +48,25 @@ void BondBPMRotationalTalus::init_style()
   BondBPMRotational::init_style();
   reason = find_reason();
   listed = nullptr;
-  if (reason.empty()) bonds.set_model(model());
+  if (!reason.empty()) return;
+  if (break_flag) check_strengths();
+  bonds.set_model(model());
+}
+
+/* A load over a strength of 0 is infinite, or of no load no number. */
+
+void BondBPMRotationalTalus::check_strengths() const
+{
+  const std::pair<const char *, const double *> strengths[] = {
+      {"Fcr", Fcr}, {"Fcs", Fcs}, {"Tct", Tct}, {"Tcb", Tcb}};
+  for (int t = 1; t <= atom->nbondtypes; t++)
+    for (const auto &[word, of_type] : strengths)
+      if (!(of_type[t] > 0.0))
+        error->all(
+            FLERR,
+            "Bond style bpm/rotational: bond_coeff {}: {} = {} is no strength: give one above "
+            "0, or 'bond_style bpm/rotational break no' for bonds that last",
+            t, word, of_type[t]);
 }
 
 std::string BondBPMRotationalTalus::find_reason() const
@@ -91,15 +110,45 @@ void BondBPMRotationalTalus::compute(int eflag, int vflag)
   if (first || neighbor->ago == 0 || listed != neighbor->bondlist ||
       num_listed != neighbor->nbondlist)
     take_list(first);
+  const Talus::EnergyAccount &account = system->account();
+  const bool accounted = account.is_asked();
+  if (accounted)
+    begin_step(*atom, update->dt, update->setupflag != 0, account.counted_of_last_step());
+  else
+    leave_out_step();
   if (bonds.count() > 0) {
     bonds.compute({atom->x[0], atom->v[0], atom->omega[0], atom->quat[0],
                    fix_bond_history->bondstore[0], fix_bond_history->get_ndata(), sign_of_history},
                   update->dt, comm->nthreads);
-    break_bonds();
-    bonds.add_to(atom->f[0], atom->torque[0], comm->nthreads);
+    break_bonds(accounted);
+    add_loads(accounted);
     if (evflag) tally_bonds();
   }
   end_bonds();
+}
+
+/* The same bits in both ways: the loads of a particle are summed before they are added. */
+
+void BondBPMRotationalTalus::add_loads(bool accounted)
+{
+  if (!accounted) return bonds.add_to(atom->f[0], atom->torque[0], comm->nthreads);
+  bonds.add_to(force_of_bonds(), torque_of_bonds(), comm->nthreads);
+  end_step(*atom);
+}
+
+/* A bond to a particle of another rank is there as well. */
+
+double BondBPMRotationalTalus::share_of(int n) const
+{
+  const Talus::BondEnds &bond = bonds.bond(n);
+  return 0.5 * ((bond.first < atom->nlocal) + (bond.second < atom->nlocal));
+}
+
+double BondBPMRotationalTalus::stored_energy() const
+{
+  double sum = 0.0;
+  for (int n = 0; n < bonds.count(); n++) sum += share_of(n) * bonds.stored_energy(n);
+  return sum;
 }
 
 /* What bonds were like at first is stored once, of all that there are; see take_list(). */
@@ -140,6 +189,26 @@ void BondBPMRotationalTalus::take_list(bool first)
   }
   const std::vector<std::int64_t> ids(tag, tag + atom->nlocal + atom->nghost);
   bonds.set_bonds(found, atom->nlocal, ids.data());
+  if (first) warn_of_long_bonds();
+}
+
+/* On more ranks LAMMPS ends where the other end is not there. */
+
+void BondBPMRotationalTalus::warn_of_long_bonds() const
+{
+  double longest = 0.0;
+  for (int n = 0; n < bonds.count(); n++) {
+    const double *const a = atom->x[bonds.bond(n).first], *const b = atom->x[bonds.bond(n).second];
+    longest = std::max(longest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, world);
+  const double range = comm->get_comm_cutoff();
+  if (longest > range && comm->me == 0)
+    error->warning(FLERR,
+                   "Bond style bpm/rotational: the longest bond has a length of {}, and ghosts are "
+                   "known up to {}: more "
+                   "ranks will miss its ends; give 'comm_modify cutoff' more than its length",
+                   longest, range);
 }
 
 /* Of a bond that came with a particle: LAMMPS leaves its history at zero. */
@@ -154,10 +223,11 @@ bool BondBPMRotationalTalus::is_unset(int n) const
 /* In the order of the list, by LAMMPS' method: it stores what `store/local` asks for, and takes the bond from both
    particles; neighbor lists follow before the next forces. */
 
-void BondBPMRotationalTalus::break_bonds()
+void BondBPMRotationalTalus::break_bonds(bool accounted)
 {
-  bonds.for_each_broken([this](int n) {
+  bonds.for_each_broken([=](int n) {
     const BondEnds bond = bonds.bond(n);
+    if (accounted) add_broken(share_of(n) * bonds.stored_energy(n));
     neighbor->bondlist[n][2] = 0;
     process_broken(bond.first, bond.second);
     bonds.drop(n);

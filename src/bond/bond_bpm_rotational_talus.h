@@ -11,7 +11,8 @@
    newton on for bonds: reason_for_stock().
    Other than LAMMPS' own: angles below 1e-8 are known, see bonds/rotational_bond.h; of `frame average` shear is not left
    out where the product of both lengths and the sine of the angle is below 1e-10.
-   Errors: those of bond_style bpm/rotational.
+   Errors: those of bond_style bpm/rotational; a strength that is not above 0, without 'break no'. Warns of a bond that is
+  longer than ghosts reach.
 ------------------------------------------------------------------------- */
 
 #ifdef BOND_CLASS
@@ -25,6 +26,7 @@ BondStyle(bpm/rotational/talus,BondBPMRotationalTalus);
 
 #include "BPM/bond_bpm_rotational.h"
 #include "bonds/rotational_bonds.h"
+#include "system/contacts/bond_account.h"
 #include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
@@ -33,7 +35,9 @@ BondStyle(bpm/rotational/talus,BondBPMRotationalTalus);
 
 namespace LAMMPS_NS {
 
-class BondBPMRotationalTalus : public BondBPMRotational, public Talus::SystemStyle {
+class BondBPMRotationalTalus : public BondBPMRotational,
+                               public Talus::SystemStyle,
+                               public Talus::BondAccount {
  public:
   explicit BondBPMRotationalTalus(class LAMMPS *);
   void init_style() override;
@@ -53,11 +57,16 @@ class BondBPMRotationalTalus : public BondBPMRotational, public Talus::SystemSty
 
   std::string find_reason() const;
   Talus::BondModel model() const;
+  void check_strengths() const;
+  void warn_of_long_bonds() const;
   void begin_bonds();
   void take_list(bool first);
   bool is_unset(int) const;
-  void break_bonds();
+  void break_bonds(bool);
+  void add_loads(bool);
   void tally_bonds();
+  double share_of(int) const;
+  double stored_energy() const override;
   void end_bonds();
 };
 

@@ -61,7 +61,8 @@ template <class Real> struct BondedPair {
 template <class Real> struct BondLoads {
   Vector3<Real> force, torque1, torque2;    ///< the force on 1; that on 2 is the opposite
   Real breaking;                            ///< the bond breaks at 1; not below 0
-  Real energy;
+  Real energy;                              ///< as LAMMPS tells it
+  Real stored;                              ///< what small elastic strains have taken to come to
   BondAngles<Real> angles;
 };
 
@@ -241,9 +242,12 @@ TALUS_INLINE BondLoads<Real> load_bond(const BondedPair<Real> &b, const BondCoef
     all.bend = all.bend + c.damping.bend * bending;
     by_bending = by_bending + c.damping.shear * bending;
   }
-  Vector3<Real> shear = -(all.shear * s.shear_axis);
-  if constexpr (frame == BondFrame::PARTICLE)
+  Vector3<Real> shear = -(all.shear * s.shear_axis),
+                sheared = -(s.length * s.angles.shear * s.shear_axis);
+  if constexpr (frame == BondFrame::PARTICLE) {
     shear = shear + (half * s.length * by_bending) * s.bend_axis;
+    sheared = sheared + (half * s.length * s.angles.bend) * s.bend_axis;
+  }
   const Vector3<Real> of_shear = (half * s.length) * shear;
   const Vector3<Real> turning = all.bend * s.bend_axis + all.twist * s.twist_axis;
   to.force = -(all.normal * s.normal) - cross(s.normal, shear);
@@ -260,6 +264,8 @@ TALUS_INLINE BondLoads<Real> load_bond(const BondedPair<Real> &b, const BondCoef
                         acting.bend / c.limit.bend + acting.twist / c.limit.twist;
   to.breaking = larger(breaking, zero);
   to.energy = half * (k.normal * stretch * stretch + elastic.shear * s.length * s.angles.shear +
+                      elastic.twist * s.angles.twist + elastic.bend * s.angles.bend);
+  to.stored = half * (k.normal * stretch * stretch + k.shear * dot(sheared, sheared) +
                       elastic.twist * s.angles.twist + elastic.bend * s.angles.bend);
   if constexpr (damping == BondDamping::DEM) add_damping_of_velocities(to, s, b, c.damping);
   return to;

@@ -200,7 +200,7 @@ void RotationalBonds::compute_eight(int begin, const BondedParticles &particles,
   };
   write(&Loads::force, found.force, found.breaking);
   write(&Loads::torque1, found.torque1, found.energy);
-  write(&Loads::torque2, found.torque2, Vec8{});
+  write(&Loads::torque2, found.torque2, larger(share, Vec8{}) * found.stored);
 
   const unsigned over = model.breaks ? bits_of(found.breaking >= one) : 0U;
   for (int k = 0; k < count; k++) {

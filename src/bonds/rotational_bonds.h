@@ -66,12 +66,14 @@ class RotationalBonds {
 
   /// Of the last compute().
   const double *force_on_first(int b) const { return loads[b].force; }
-  double energy(int b) const { return loads[b].torque1[3]; }
+  double energy(int b) const { return loads[b].torque1[3]; }    ///< as LAMMPS tells it
+  /// With `smooth` the share of it that forces have; none of what breaks then.
+  double stored_energy(int b) const { return loads[b].torque2[3]; }
 
   double memory_usage() const;
 
  private:
-  /// The fourth numbers: breaking, energy, and unused.
+  /// The fourth numbers: breaking, energy, stored energy.
   struct alignas(32) Loads {
     double force[4], torque1[4], torque2[4];
   };

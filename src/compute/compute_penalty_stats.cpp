@@ -7,6 +7,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "force.h"
 #include "update.h"
 
 #include <algorithm>
@@ -26,6 +27,9 @@ enum {
   BYTES,
   EXCHANGE_TIME,
   WAITING_TIME,
+  BOND_ELASTIC,
+  BOND_DAMPING,
+  BOND_BREAKING,
   SIZE
 };
 }
@@ -64,6 +68,13 @@ void ComputePenaltyStats::setup()
   if (started) return;
   started = true;
   before = dissipated(system->account().work(), sum_contacts().stored);
+  bonds_before = energies_of_bonds();
+}
+
+Talus::BondEnergies ComputePenaltyStats::energies_of_bonds() const
+{
+  const Talus::BondAccount *bonds = Talus::BondAccount::of(force->bond);
+  return bonds ? bonds->energies(system->account().counted_of_last_step()) : Talus::BondEnergies{};
 }
 
 ComputePenaltyStats::ContactSums ComputePenaltyStats::sum_contacts() const
@@ -98,6 +109,10 @@ void ComputePenaltyStats::compute_vector()
   mine[NORMAL] = lost.normal;
   mine[TANGENTIAL] = lost.tangential;
   mine[RESISTANCE] = lost.resistance;
+  const Talus::BondEnergies of_bonds = energies_of_bonds(), since = of_bonds - bonds_before;
+  mine[BOND_ELASTIC] = of_bonds.stored;
+  mine[BOND_DAMPING] = since.damped;
+  mine[BOND_BREAKING] = since.broken;
   mine[CANDIDATES] = system->contacts().count_candidates();
   mine[CONTACTS] = found.contacts;
   double largest = std::max(system->contacts().deepest().overlap_ratio, found.deepest_in_body);

@@ -9,6 +9,7 @@
 
 #include "compute.h"
 
+#include "system/contacts/bond_account.h"
 #include "system/step/granular_system.h"
 
 #include <memory>
@@ -25,7 +26,8 @@ class ComputePenaltyStats : public Compute, private Talus::ContactObserver {
   /// candidate pairs, contacts, largest overlap/radius, elastic energy; energy dissipated since the
   /// first run with this compute by normal damping, by friction, by rolling and spinning
   /// resistance; messages and bytes of one exchange of proxies (all ranks), seconds packing and
-  /// unpacking them, seconds waiting for them (mean of ranks): zeros without comm_proxy.
+  /// unpacking them, seconds waiting for them (mean of ranks): zeros without comm_proxy; energy that
+  /// bonds store, and that their damping and breaking have dissipated: zeros without accelerated ones.
   void compute_vector() override;
 
  private:
@@ -37,10 +39,12 @@ class ComputePenaltyStats : public Compute, private Talus::ContactObserver {
   };
   double radius_of(int i) const;
   ContactSums sum_contacts() const;
+  Talus::BondEnergies energies_of_bonds() const;
 
   std::shared_ptr<Talus::GranularSystem> system;
   bool started = false;
   Talus::EnergyByCause before;    ///< dissipated when the first run began
+  Talus::BondEnergies bonds_before;
 };
 
 }    // namespace LAMMPS_NS

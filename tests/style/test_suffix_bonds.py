@@ -196,6 +196,43 @@ class SuffixBonds(SceneCase):
         self.assertGreater(rows[-1]["c_parts"], 1)
         self.assertLess(rows[-1]["v_largest"], rows[0]["Atoms"])
 
+    def refused(self, np, **options):
+        """What the run says at its end."""
+        settings = dict(boundary="s s m", newton="on off", special="lj 0 1 1 coul 1 1 1", bond="bpm/rotational", words=OLDER_WORDS,
+                        coeffs=f"bond_coeff * {WHOLE}", pair="gran/hooke/history 200.0 NULL 5.0 NULL 0.5 1", commands="run 5")
+        settings.update(options)
+        cwd = self.path(f"refused{len(os.listdir(self.dir))}")
+        os.makedirs(cwd)
+        write_bonded_data(os.path.join(cwd, "grains"), BOX, self.spheres, self.bonds, bond_types=2)
+        result = self.run_lammps((SCENE + "{commands}\n").format(**settings), np=np, cwd=cwd, arguments=TALUS, expect_error=True)
+        return result.log + result.output
+
+    def test_strength_of_zero(self):
+        for np in 1, 2:
+            for place, word in enumerate(("Fcr", "Fcs", "Tct", "Tcb"), start=4):
+                coeffs = BRITTLE.split()
+                coeffs[place] = "0.0"
+                said = self.refused(np, coeffs=f"bond_coeff 1 {BRITTLE}\nbond_coeff 2 " + " ".join(coeffs))
+                self.assertIn(f"Bond style bpm/rotational: bond_coeff 2: {word} = 0 is no strength: give one above 0, or 'bond_style "
+                              "bpm/rotational break no'", said.replace("\n", " "))
+        self.simulate(TALUS, words="break no smooth no", coeffs="bond_coeff * 30.0 10.0 2.0 3.0 0 0 0 0 0.3 0.2 0.1 0.05", commands="run 5")
+
+    def test_bond_beyond_ghosts(self):
+        """A warning where it can be computed."""
+        self.bonds.append((1, 1, len(self.spheres)))
+        self.simulate(TALUS, commands="run 5", words="break no smooth no")
+        self.assertRegex(self.log, r"WARNING: Bond style bpm/rotational: the longest bond has a length of [5-9][.\d]*, and ghosts are "
+                                   r"known up to 3[.\d]*: more ranks will miss its ends; give 'comm_modify cutoff' more than its length")
+        self.bonds.pop()
+        self.simulate(TALUS, commands="run 5", words="break no smooth no")
+        self.assertNotIn("longest bond", self.log)
+
+    def test_bond_to_a_particle_that_is_gone(self):
+        """The error of LAMMPS; on two ranks that of the lower one, where all of its partners are."""
+        for np in 1, 2:
+            said = self.refused(np, commands="run 5\ngroup gone id 10\ndelete_atoms group gone compress no\nrun 5")
+            self.assertRegex(said, r"ERROR on proc \d: Bond atoms (\d+ 10|10 \d+) missing")
+
     def test_what_is_stock(self):
         self.compare(1e-9, words="break no smooth no", newton="on on", commands="run 20")
         self.assertIn("stock: newton is on for bonds: use 'newton on off'", self.log)

@@ -2,6 +2,7 @@
 
 #include "system/contacts/fix_contact_store.h"
 
+#include "system/contacts/bond_account.h"
 #include "system/host/fix_list.h"
 #include "system/host/restart_data.h"
 #include "system/host/system_run_style.h"
@@ -16,6 +17,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "integrate.h"
 #include "modify.h"
 #include "output.h"
@@ -159,6 +161,7 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
+  if (Talus::BondAccount *bonds = Talus::BondAccount::of(force->bond)) bonds->complete_kick(*atom);
   store_histories(Occasion::REBUILD);
   if (!has_pairs()) return;
   system->rebuild().release_pairs();
