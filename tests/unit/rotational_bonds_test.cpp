@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Bonds between spheres: loads against the same equations with matrices of rotation, angles by the C library; what
+// Bonds between spheres: loads against the same equations with matrices of rotation; what
 // strains give by hand; momenta; and sums that do not depend on lists and threads.
 
 #include "bonds/rotational_bonds.h"
@@ -238,22 +238,6 @@ TEST(RotationalBond, AtRestThereIsNoLoad)
     EXPECT_EQ(eigen(v).norm(), 0.0);
   EXPECT_EQ(found.breaking, 0.0);
   EXPECT_EQ(found.energy, 0.0);
-}
-
-TEST(ArcTangent, IsThatOfTheLibrary)
-{
-  RandomSource random(3);
-  for (int n = 0; n < 20000; n++) {
-    const double size = random.decade(-12.0, 12.0), y = random.uniform(-1.0, 1.0) * size,
-                 x = random.uniform(-1.0, 1.0);
-    const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-    const double found = arc_tangent(y, x);
-    EXPECT_LE(std::fabs(found - exact), 7e-16L * std::fabs(exact)) << y << ' ' << x;
-    const Vec8 lanes_found = arc_tangent(splat<Vec8>(y), splat<Vec8>(x));
-    EXPECT_EQ(lanes_found[5], found);
-  }
-  EXPECT_EQ(arc_tangent(0.0, 0.0), 0.0);
-  EXPECT_EQ(arc_tangent(0.0, -1.0), std::acos(-1.0));
 }
 
 /* ---------------------------------------------------------------------- */
