@@ -81,6 +81,69 @@ thermo 1000
 run {steps}
 """
 
+# beams between all grains of a block that falls on a plate
+BLOCK_SIDE = 10     # cells of four spheres
+BLOCK_FLOOR = AGGLOMERATE_FLOOR = 2.5
+BLOCK = """units lj
+boundary s s m
+atom_style bpm/sphere
+newton on off
+comm_modify vel yes cutoff 3.0
+special_bonds lj 0 1 1 coul 0 1 1
+region box block -1 {edge} -1 {edge} -2 {edge}
+create_box 1 box bond/types 1 extra/bond/per/atom 20 extra/special/per/atom 60
+lattice fcc 1.33
+region block block 0 {side} 0 {side} 0 {side}
+create_atoms 1 region block
+set group all diameter 1.0 density 1.0
+displace_atoms all random 0.05 0.05 0.05 4711 units box
+neighbor 0.3 bin
+timestep 0.01
+pair_style gran/hooke/history 200.0 NULL 5.0 NULL 0.5 1
+pair_coeff * *
+create_bonds many all all 1 0.5 1.2
+special_bonds lj 0 1 1 coul 1 1 1
+bond_style bpm/rotational break no smooth no
+bond_coeff 1 30.0 10.0 2.0 3.0 1e9 1e9 1e9 1e9 0.3 0.2 0.1 0.05
+velocity all create 0.01 77
+velocity all set NULL NULL -0.3 sum yes
+fix move all nve/bpm/sphere
+fix weight all gravity 0.1 vector 0 0 -1
+fix floor all wall/gran hooke/history 200.0 NULL 5.0 NULL 0.5 1 zplane -1.0 NULL
+thermo 1000
+run {steps}
+"""
+
+TRIAXIAL_SIDE = 12  # spheres
+TRIAXIAL_FLOOR = 3.0
+TRIAXIAL = """units si
+atom_style sphere
+boundary p p p
+newton off
+comm_modify vel yes
+region box block 0 {edge} 0 {edge} 0 {edge} units box
+create_box 1 box
+lattice sc 0.00108
+create_atoms 1 box
+set type 1 diameter 0.001
+set type 1 density 2500
+displace_atoms all random 2e-5 2e-5 2e-5 4711
+pair_style granular
+pair_coeff * * hertz/material 2e8 0.5 0.3 tangential mindlin NULL 1.0 0.5
+neighbor 0.0002 bin
+neigh_modify every 1 delay 0 check yes
+timestep 5e-7
+fix move all nve/sphere
+compute contact all pressure NULL virial
+thermo_style custom step lx lz c_contact[1] c_contact[3]
+thermo 1000
+fix press all deform/pressure 1 x pressure 5e4 5e-3 y pressure 5e4 5e-3 z pressure 5e4 5e-3 max/rate 20.0 remap v
+run {steps}
+unfix press
+fix press all deform/pressure 1 z trate -5.0 x pressure 5e4 5e-3 y pressure 5e4 5e-3 max/rate 20.0 remap v
+run {steps}
+"""
+
 
 # ---- cases ------------------------------------------------------------------------------------
 
@@ -138,6 +201,27 @@ def gas_cases(bench):
         yield Case(bench, f"gas.{fraction}", f"{GAS_SIDE**3} spheres fly in a periodic box, solid fraction {fraction}", text, floor)
 
 
+def bonded_cases(bench):
+    """A block; and the ball of the example, which breaks. Rods are those of in.bpm.pour."""
+    if bench.wants("bonds.block"):
+        side = BLOCK_SIDE * (4 / 1.33) ** (1 / 3)
+        yield Case(bench, "bonds.block", f"a block of {4 * BLOCK_SIDE**3} spheres with bond_style bpm/rotational",
+                   BLOCK.format(side=BLOCK_SIDE - 0.01, edge=side + 3, steps=bench.size(2000, 200)), BLOCK_FLOOR)
+    if bench.wants("bonds.agglomerate"):
+        with open(os.path.join(machine.ROOT, "examples", "bonds", "in.agglomerate")) as file:
+            text = file.read()
+        for name, value in ("speed", 15.0), ("steps", bench.size(8000, 800)):
+            text = re.sub(rf"(?m)^(variable {name} index) .*", rf"\1 {value}", text)
+        yield Case(bench, "bonds.agglomerate", "examples/bonds/in.agglomerate: a ball of bonded spheres breaks on a plate", text,
+                   AGGLOMERATE_FLOOR)
+
+
+def triaxial_cases(bench):
+    if bench.wants("triaxial"):
+        yield Case(bench, "triaxial", f"{TRIAXIAL_SIDE**3} spheres, periodic triaxial compression with fix deform/pressure",
+                   TRIAXIAL.format(edge=TRIAXIAL_SIDE * 0.00108, steps=bench.size(10000, 1000)), TRIAXIAL_FLOOR)
+
+
 def input_case(bench, given, steps):
     text = stock_inputs.shortened(stock_inputs.read_text(given, machine.HOST_SOURCE), steps)
     return Case(bench, given.title[3:], given.name, text, FLOORS.get(given.title[3:], FLOOR), given)
@@ -153,6 +237,8 @@ def cases(bench):
     """Those that are asked for and can be made."""
     yield from bed_cases(bench)
     yield from gas_cases(bench)
+    yield from bonded_cases(bench)
+    yield from triaxial_cases(bench)
     for given in stock_inputs.INPUTS:
         if not os.path.exists(os.path.join(machine.HOST_SOURCE, given.name)):
             bench.section.text(f"Left out: {given.name}, which the source of this LAMMPS does not have.")
