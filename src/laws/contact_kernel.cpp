@@ -6,9 +6,11 @@
 #include "laws/end_of_touch.h"
 #include "laws/fused_kernels.h"
 #include "laws/law_definition.h"
+#include "laws/law_list.h"
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace Talus {
 namespace {
@@ -83,6 +85,12 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
+/// Of laws that write nothing there and are followed by one whose sums have a part in it.
+void clear_twisting(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
+{
+  for (int k = begin; k < end; k += lanes) store_vector(b.twisting_torque, k, Vector3<Vec8>{});
+}
+
 template <bool with_radius, bool second_order> StageFunction impact_function(bool advance)
 {
   return advance ? run_approach<with_radius, true, true, second_order>
@@ -132,9 +140,9 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
   add(find_last_overlap<true>);
 }
 
-/* What the law of cohesion itself remembers stays; heat has no history. */
-
-void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
+/// Of the history values those of laws that end with the touch, others -1. What the law of cohesion itself remembers
+/// stays; heat has no history.
+static HistoryIndices ending_with_touch(const ContactLaw &law)
 {
   const HistoryLayout layout = law.history();
   const HistoryIndices &kept = layout.of_stage[static_cast<int>(Stage::COHESION)];
@@ -145,7 +153,12 @@ void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
         std::find(kept.begin(), kept.begin() + num_kept, n) == kept.begin() + num_kept;
     ending[n] = ends && n < layout.size ? n : -1;
   }
-  add(advance ? end_touch<true> : end_touch<false>, 0, ending);
+  return ending;
+}
+
+void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
+{
+  add(advance ? end_touch<true, true> : end_touch<false, true>, 0, ending_with_touch(law));
 }
 
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
@@ -180,15 +193,46 @@ static HistoryIndices consecutive_history_indices(const ContactLaw &law)
   return history_index;
 }
 
+/// The law without the stage that may follow a function for all others, if it has one: heat, behind a normal law that
+/// finds the circle again, or a liquid bridge, which reads nothing of other stages but their sums. (Of other laws that
+/// act beyond touch it is not known what they read.)
+static ContactLaw before_last_stage(const ContactLaw &law)
+{
+  const auto without = [&law](Stage stage) {
+    ContactLaw rest = law;
+    rest.choose(stage, laws_of(stage).front());
+    return !law.tangential().second_order && rest.has_friction() ? rest : law;
+  };
+  const auto coheres_by = [&law](const char *name) {
+    return std::strcmp(law.cohesion().name, name) == 0;
+  };
+  const bool remembers = law.normal().odd_history + law.normal().even_history > 0;
+  if (law.conducts_heat()) return remembers ? law : without(Stage::HEAT);
+  return coheres_by("willett") || coheres_by("rabinovich") ? without(Stage::COHESION) : law;
+}
+
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
 {
+  const ContactLaw before = before_last_stage(law);
   const StageFunction fused =
-      uniform && (advance || !law.has_history()) ? fused_function(law) : nullptr;
+      uniform && (advance || !law.has_history()) ? fused_function(before) : nullptr;
   if (!fused) return staged_kernel(law, uniform, advance);
   ContactKernel kernel;
   kernel.uniform = true;
   kernel.add_end_of_contact(law);
   kernel.add(fused, 0, consecutive_history_indices(law));
+  if (before == law) return kernel;
+  kernel.add(run_approach<true, false, false>);    // fused functions leave nothing of it
+  const Stage last = law.conducts_heat() ? Stage::HEAT : Stage::COHESION;
+  if (last == Stage::HEAT) {
+    if (!before.twists()) kernel.add(clear_twisting);
+    kernel.add(law.normal().reading, law.first_coefficient(Stage::NORMAL));
+    if (law.reaches()) kernel.add_end_of_touch(law, advance);
+  } else {
+    kernel.add(advance ? end_touch<true, false> : end_touch<false, false>, 0,
+               ending_with_touch(law));
+  }
+  kernel.add(law[last].advancing, law.first_coefficient(last));
   return kernel;
 }
 

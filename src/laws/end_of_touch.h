@@ -21,10 +21,12 @@ inline void end_touch(ContactLanes<double> &s)
   s.force = s.tangential = s.torque_per_radius = s.twisting_torque = Vector3<double>{};
 }
 
-/// Of a batch, `advance`: with the history values of these laws, all indices that are not below 0.
-template <bool advance> void end_touch(ContactBatch &b, int begin, int end, const StageInput &in)
+/// Of a batch, `advance`: with the history values of these laws, all indices that are not below 0; `found`: with what
+/// stages find for others, not the sums alone.
+template <bool advance, bool found>
+void end_touch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
-  ContactBatch::Between &f = b.between;
+  [[maybe_unused]] ContactBatch::Between &f = b.between;
   const Vec8 zero = splat<Vec8>(0.0);
   for (int k = begin; k < end; k += lanes) {
     const auto apart = load8(&b.overlap[k]) < zero;
@@ -32,10 +34,11 @@ template <bool advance> void end_touch(ContactBatch &b, int begin, int end, cons
     const auto end_one = [=](double *of_lanes) {
       store(of_lanes + k, select(apart, zero, load8(of_lanes + k)));
     };
-    for (double *one :
-         {f.kn, f.kt, f.tangent_n, f.tangent_t, f.contact_radius, f.elastic, f.pulloff_force, f.gn,
-          f.gt, f.normal_force, f.critical_force, f.delayed_force})
-      end_one(one);
+    if constexpr (found)
+      for (double *one :
+           {f.kn, f.kt, f.tangent_n, f.tangent_t, f.contact_radius, f.elastic, f.pulloff_force,
+            f.gn, f.gt, f.normal_force, f.critical_force, f.delayed_force})
+        end_one(one);
     for (int d = 0; d < 3; d++)
       for (double *one : {b.force[d], b.torque_per_radius[d], b.twisting_torque[d]}) end_one(one);
     if constexpr (advance)

@@ -5,11 +5,13 @@
 #include "contacts_by_words.h"
 #include "laws/second_order_laws.h"
 #include "material/law_table.h"
+#include "random_source.h"
 #include "shaped/point_batch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 using namespace contacts;
 
@@ -182,6 +184,60 @@ TEST(LawTable, TellsWhetherAContactLasts)
   table.set(1, 1, pair.law, pair.row);
   table.finish();
   EXPECT_FALSE(table.lasts(0, 1e-3, 1e-3, -1e-20));    // no reach, and the gap is rounded
+}
+
+/// Contacts in all directions, which move and remember something; half of them apart, if such are computed.
+ContactBatch random_contacts(RandomSource &random, const Pair &pair)
+{
+  ContactBatch batch;
+  batch.clear();
+  for (int k = 0; k < ContactBatch::width; k++) {
+    const bool apart = pair.law.lasts_beyond_contact() && random.chance(0.5);
+    const ContactState<double> s = pair.at((apart ? 1.0 : -1.0) * random.decade(-7.0, -5.0));
+    batch.overlap[k] = s.overlap;
+    batch.inverse_mass[k] = 1e6;
+    batch.inverse_radius[k] = s.inverse_radius;
+    batch.inverse_distance[k] = s.inverse_distance;
+    batch.temperature_difference[k] = random.uniform(-10.0, 10.0);
+    const double angle = random.uniform(0.0, 2 * pi);
+    batch.normal[0][k] = std::cos(angle);
+    batch.normal[1][k] = std::sin(angle);
+    for (int d = 0; d < 3; d++) {
+      batch.velocity[d][k] = random.uniform(-1.0, 1.0);
+      batch.surface_rotation[d][k] = random.uniform(-1.0, 1.0);
+      batch.history[d][k] = random.uniform(-1e-6, 1e-6);
+    }
+  }
+  return batch;
+}
+
+// One function for the first stages and one for the last, against all stages.
+TEST(FusedKernels, MayBeFollowed)
+{
+  RandomSource random(5);
+  for (const std::string last :
+       {"adhesion willett 0.07 20 volume 1e-11 viscosity 0.01 0.01",
+        "adhesion rabinovich 0.07 20 fraction 0.01", "heat radius 50", "heat area 1e4",
+        "heat radius 50 modulus 1e10 0.3", "heat gas 50 0.02 0.5 0.1"}) {
+    const Pair pair("hertz/material 1e8 0.8 0.3 tangential multistep NULL NULL 0.5 " + last, 1e-3,
+                    1e-3);
+    const ContactKernel kernel = contact_kernel(pair.law, true, true),
+                        stages = staged_kernel(pair.law, true, true);
+    ASSERT_FALSE(kernel == stages) << last;
+    for (int n = 0; n < 200; n++) {
+      ContactBatch fused = random_contacts(random, pair), staged = fused;
+      for (auto &one : fused.twisting_torque) one[n % ContactBatch::width] = 1.0;    // is written
+      kernel(fused, 0, ContactBatch::width, &pair.row, 1e-6);
+      stages(staged, 0, ContactBatch::width, &pair.row, 1e-6);
+      const auto same = [](const auto &a, const auto &b) { return !std::memcmp(a, b, sizeof a); };
+      ASSERT_TRUE(same(fused.force, staged.force)) << last;
+      ASSERT_TRUE(same(fused.torque_per_radius, staged.torque_per_radius)) << last;
+      ASSERT_TRUE(same(fused.history, staged.history)) << last;
+      if (!pair.law.conducts_heat()) continue;
+      ASSERT_TRUE(same(fused.heat_flow, staged.heat_flow)) << last;
+      ASSERT_TRUE(same(fused.twisting_torque, staged.twisting_torque)) << last;
+    }
+  }
 }
 
 TEST(LiquidBridge, IsRefusedWhereItCannotBe)
