@@ -7,6 +7,7 @@ import math
 import unittest
 
 import body_meshes
+from doc_tables import commands, page, rows
 from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
 # Willett et al. 2000
@@ -57,17 +58,20 @@ run {steps}
 SPEED = 0.1
 
 
-class DrawnApart(SceneCase):
+class Pair(SceneCase):
 
-    def gaps_and_pulls(self, adhesion, steps=5000, **options):
+    def gaps_and_pulls(self, adhesion, steps=5000, way=5e-4, **options):
         write_sphere_data(self.path("data"), ((-1e-2, 1e-2),) * 3, [Sphere((0, 0, 0), diameter=2 * R),
                                                                     Sphere((0, 0, 2 * R - 1e-6), diameter=2 * R)])
-        self.run_lammps(APART.format(adhesion=adhesion, speed=SPEED, dt=5e-3 / steps, steps=steps, out="apart"), **options)
+        self.run_lammps(APART.format(adhesion=adhesion, speed=SPEED, dt=way / SPEED / steps, steps=steps, out="apart"), **options)
         frames = read_dump(self.path("apart"))
         for frame in frames:
             z, f = frame.column("z"), frame.column("fz")
             self.assertEqual(f[1], -f[2])
             yield z[2] - z[1] - 2 * R, f[1]
+
+
+class DrawnApart(Pair):
 
     def check(self, adhesion, expected, reach=REACH):
         states = list(self.gaps_and_pulls(adhesion))
@@ -206,6 +210,53 @@ class Energy(SceneCase):
     def test_viscous_and_oblique(self):
         law = "hertz 1e6 1e4 tangential multistep NULL NULL 0.5 slider midpoint adhesion " + f"{WILLETT} viscosity {ETA} {LEAST}"
         self.check(self.impact(self.pair(0.15, 0.1), law, dt=2e-7, steps=60000))
+
+
+class LinesOfOtherPrograms(Pair):
+    """What the table of the page gives, against the equations of those programs as the page tells them; two spheres of radius R, whose
+    effective radius is R/2, wetted completely where LIGGGHTS is right."""
+
+    VOLUMES = 2 * 4 / 3 * math.pi * R**3
+
+    def drawn(self, program, theta=0):
+        """(gap, pull) from contact to rupture, and the reach."""
+        (ours,), = [commands(cell) for name, _, cell in rows(page("contact_laws_wet.md"), "program") if name.startswith(program)]
+        words = ours.replace("theta", str(theta)).split()
+        self.assertEqual(words[0], "adhesion")
+        out = list(self.gaps_and_pulls(" ".join(words[1:]), way=6e-4))[:501]
+        bridged = [(gap, pull) for gap, pull in out if gap > 0 and pull > 0]
+        return bridged, bridged[-1][0]
+
+    def is_reach(self, found, expected):
+        """Written every tenth step: two of these are 2.4 um."""
+        self.assertAlmostEqual(found, expected, delta=2.4e-6)
+
+    def test_mercury(self):
+        gamma, theta, volume = 0.02, math.radians(20), 75e-12
+        bridged, reach = self.drawn("MercuryDPM")
+        self.is_reach(reach, (1 + theta / 2) * volume**(1 / 3))
+        pairs = [(pull / 2, willett(gap, R / 2, gamma * math.cos(theta), volume)) for gap, pull in bridged]
+        self.assertAlmostEqual(pairs[0][0] / pairs[0][1], 1, delta=5e-3)    # at contact
+        self.assertTrue(all(half <= theirs for half, theirs in pairs))
+
+    def test_washino(self):
+        volume = 0.05 * 0.02 * self.VOLUMES
+        bridged, reach = self.drawn("LIGGGHTS, cohesion washino")
+        self.is_reach(reach, volume**(1 / 3))
+        for gap, pull in bridged:
+            lubrication = 6 * math.pi * 1e-3 * (R / 2) * SPEED / max(0.01, gap / (R / 2))
+            self.assertAlmostEqual(pull / (rabinovich(gap, R, 0.0, 0.07, volume) + lubrication), 1, delta=1e-8)
+
+    def test_easo(self):
+        volume = 0.067 * 0.02 * self.VOLUMES
+        bridged, reach = self.drawn("LIGGGHTS, cohesion easo")
+        self.is_reach(reach, volume**(1 / 3))
+        size = math.log(volume / R**3)
+        a, b, c = -1.1 * (volume / R**3)**-0.53, -0.0082 * size + 0.48, 0.0018 * size + 0.078
+        for gap, pull in bridged[:len(bridged) // 2]:
+            lubrication = 6 * math.pi * 1e-3 * (R / 2) * SPEED / max(0.01, gap / (R / 2))
+            soulie = math.pi * 0.07 * R * (c + math.exp(a * gap / R + b))
+            self.assertAlmostEqual((pull - lubrication) / soulie, 1, delta=0.25)
 
 
 if __name__ == "__main__":
