@@ -107,8 +107,9 @@ template <class Model> struct LiquidBridge : CohesionLaw {
   TALUS_INLINE static Bridge<Real> bridge_of(const BridgeRow<Real> &c, const ContactLanes<Real> &s)
   {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    return {select(s.overlap < zero, -s.overlap, zero), 2.0 * s.radius,
-            c.volume + c.fraction * volume_of_particles(s, zero, one)};
+    Real volume = c.volume;
+    if (any(c.fraction > zero)) volume = volume + c.fraction * volume_of_particles(s, zero, one);
+    return {select(s.overlap < zero, -s.overlap, zero), 2.0 * s.radius, volume};
   }
 
   /// From the sum of their radii and the effective one; against a large body that of one sphere.
