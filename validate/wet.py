@@ -122,8 +122,9 @@ Input script: `validate/in.wet`.""")
     low, high, factor = min(shares), max(shares), (1 + stress) / stress / (dry - 1) * dry
     bench.section.text(f"""The papers tell no number for how good the agreement is: the bound of {100 * bound:.0f} % on the ratio of
 effective stresses is ours. The cohesion is shown and not compared: here it is {low:.2f} to {high:.2f} of the estimate, so that a bound of
-20 % would {"" if low < 0.8 else "not "}be missed. It is a small difference of large numbers: with the stress s of bridges over the lateral one, a
-change of the ratio K of effective stresses by 1 % changes it by K (1 + s)/(s (K - 1)) %, about {factor:.1f} % for a bridge of {bridges[-1]}, and more for weaker ones.""")
+20 % would {"" if low < 0.8 else "not "}be missed. It is a small difference of large numbers: with the stress s of bridges over the
+lateral one, a change of the ratio K of effective stresses by 1 % changes it by K (1 + s)/(s (K - 1)) %, about {factor:.1f} % for a bridge
+of {bridges[-1]}, and more for weaker ones.""")
     bench.section.plot("", "Ratio of stresses over the force of a bridge; line: effective stresses by Rumpf's relation",
                        lambda plt: draw(plt, states, dry))
 
