@@ -19,6 +19,8 @@ feature matters?"""
 
 SHAPE = f"fix shapes all shape/gran type 2 box 1e-3 1e-3 1e-3 density {beds.DENSITY}\n"
 LUDING = f"luding 1e4 4e4 1e4 0.02 100.0 tangential multistep NULL NULL {beds.MU}"
+EEPA = f"eepa {beds.YOUNG} 0.5 {beds.NU} 0.02 0.5 0.0 1.5 3.0 tangential multistep NULL NULL {beds.MU}"
+HOT = "fix hot all property/atom temperature heatflow ghost yes\nset group all temperature 300\nfix flow all heat/flow constant 1000\n"
 STICKS = f"hertz {beds.KN} {beds.GN} tangential multistep NULL NULL {beds.MU}"
 
 
@@ -43,6 +45,9 @@ def variants(bench):
         "multistep, viscous bridges": (STICKS + " adhesion rabinovich 1e-3 20 fraction 0.005 viscosity 1e-3 0.01", True, "sphere", "",
                                        "f f f"),
         "multistep, elasto-plastic": (LUDING, True, "sphere", "", "f f f"),
+        "multistep, eepa": (EEPA, True, "sphere", "", "f f f"),
+        "multistep, heat": (STICKS + " heat radius 1.0", True, "hot", "", "f f f"),
+        "multistep, heat through gas": (STICKS + " heat gas 1.0 0.025 0.5 0.1", True, "hot", "", "f f f"),
         "multistep, impact velocity and age": (material.replace("hertz/", "flores/").replace(f"{beds.NU} tang",
                                                                                         f"{beds.NU} 1.0 tang"),
                                             True, "sphere", "", "f f f"),
@@ -60,6 +65,8 @@ def script(bench, variant, count, steps):
     physics = physics_of(law, walls, words)
     if style == "shape":
         return beds.script(f"{data} extra/atom/types 1", physics + SHAPE, 100, steps, boundary=boundary)
+    if style == "hot":
+        return beds.script(data, physics + HOT, 100, steps, boundary=boundary)
     if style != "sphere":
         return hybrid(data, physics, style, steps)
     return beds.script(data, physics, 100, steps, boundary=boundary)
@@ -67,7 +74,8 @@ def script(bench, variant, count, steps):
 
 def physics_of(law, walls, words):
     start = "half" if "order 2" in words else "plain"
-    return beds.talus(law, walls=walls, start=start).replace("symplectic start", f"symplectic{words} start")
+    dry = law.split(" heat ")[0]     # walls have no temperature
+    return beds.talus(dry, walls=walls, start=start, materials=law).replace("symplectic start", f"symplectic{words} start")
 
 
 def hybrid(data, physics, style, steps, boundary="f f f", warm=100):
@@ -114,6 +122,8 @@ def message(bench, variant):
     physics = physics_of(law, False, words) + "comm_proxy yes\n"
     if style == "shape":
         text = beds.script(f"{data} extra/atom/types 1", physics + SHAPE, 0, 20, boundary="p p f")
+    elif style == "hot":
+        text = beds.script(data, physics + HOT, 0, 20, boundary="p p f")
     elif style != "sphere":
         text = hybrid(data, physics, style, 20, boundary="p p f", warm=0)
     else:
