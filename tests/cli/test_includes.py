@@ -86,6 +86,10 @@ class Includes(unittest.TestCase):
         self.assertEqual(folders - set(self.table), set())
         self.assertEqual(set(self.table) - folders - {""}, set(), "folders that are gone")
 
+    def test_picture_shows_every_folder(self):
+        shown = re.findall(r"<text[^>]*>([a-z/]+)<", (SOURCE / "doc" / "architecture.svg").read_text())
+        self.assertEqual(sorted(shown), sorted(set(self.table) - {""}))
+
     def test_no_cycle(self):
         for folder in self.table:
             self.assertNotIn(folder, reachable(self.table, folder), f"{folder} reaches itself")

@@ -16,7 +16,6 @@ import unittest
 ROOT = os.environ["TALUS_SOURCE_DIR"]
 VERSION = os.environ["TALUS_VERSION"]
 SCRIPT = os.path.join(ROOT, "scripts", "package")
-SYSTEMS = os.path.join(ROOT, "scripts", "lib", "systems.sh")
 CLEAN = {key: value for key, value in os.environ.items()
          if key not in ("LAMMPS_PLUGIN_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "PKG_CONFIG_PATH", "TALUS_HOME")}
 BROUGHT = re.compile(r"lib/talus/lib(png16|ccd)\.so\.\d+(\.copyright)?$")

@@ -6,7 +6,7 @@ and walls of LAMMPS with a temperature."""
 import math
 import unittest
 
-from heat_row import AT_WALL, BETWEEN, CAPACITY, CONDUCTIVITY, COUNT, DIAMETER, LAW, LENGTH, MASS, HeatRowCase
+from heat_row import AT_WALL, BETWEEN, CAPACITY, CONDUCTIVITY, COUNT, DIAMETER, LAW, LENGTH, HeatRowCase
 from talus_testing import SceneCase, Sphere, head, read_dump, thermo, write_sphere_data
 
 SOURCE = 8e6    # power over volume
