@@ -10,8 +10,6 @@
 namespace Talus {
 namespace {
 
-constexpr double rounding = 1e-12, most_cells = 1e8;
-
 void normalize(std::vector<double> &weights)
 {
   double sum = 0.0;
@@ -21,77 +19,42 @@ void normalize(std::vector<double> &weights)
 
 }    // namespace
 
-GridCells::GridCells(const FluidKernel &of_grains, const double *from, const double *to,
-                     const int *number, const Periods &of_box) :
+GridCells::GridCells(const FluidKernel &of_grains, const double *lo, const double *hi,
+                     const int *cells, const Periods &periods) :
     kernel(of_grains),
-    periods(of_box)
+    grid(lo, hi, cells, periods)
 {
-  for (int d = 0; d < 3; d++) {
-    lo[d] = from[d];
-    hi[d] = to[d];
-    cells[d] = number[d];
-    edge[d] = (hi[d] - lo[d]) / cells[d];
-    goes_round[d] =
-        periods.length[d] > 0.0 && hi[d] - lo[d] >= periods.length[d] * (1.0 - rounding);
-  }
 }
 
 std::string GridCells::problem(const FluidKernel &kernel, const double *lo, const double *hi,
                                const int *cells, const Periods &periods)
 {
-  double count = 1.0, longest = 0.0;
-  for (int d = 0; d < 3; d++) {
-    const std::string axis(1, "xyz"[d]);
-    if (cells[d] < 1)
-      return "cells along " + axis + " are " + std::to_string(cells[d]) + ", expected 1 or more";
-    if (!(hi[d] > lo[d])) return "hi is not larger than lo along " + axis;
-    if (periods.length[d] > 0.0 && hi[d] - lo[d] > periods.length[d] * (1.0 + rounding))
-      return "the grid is longer than the period of the box along " + axis;
-    count *= cells[d];
-    longest = std::max(longest, hi[d] - lo[d]);
-  }
-  if (kernel.width > longest) return "the kernel is wider than the grid is long";
-  return count > most_cells ? "the grid has more than 1e8 cells" : "";
-}
-
-/* In the period that begins where the grid does. */
-
-double GridCells::place(const double *x, int d) const
-{
-  const double period = periods.length[d];
-  if (!(period > 0.0)) return x[d];
-  const double inside = x[d] - period * std::floor((x[d] - lo[d]) / period);
-  return goes_round[d] ? std::clamp(inside, lo[d], hi[d]) : inside;
+  const std::string of_grid = CellGrid(lo, hi, cells, periods).problem();
+  if (!of_grid.empty()) return of_grid;
+  const double longest = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+  return kernel.width > longest ? "the kernel is wider than the grid is long" : "";
 }
 
 void GridCells::reach(double from, double to, int d, Axis &axis) const
 {
-  double first = std::floor((from - lo[d]) / edge[d]), last = std::floor((to - lo[d]) / edge[d]);
-  if (!goes_round[d]) {
-    first = std::clamp(first, 0.0, cells[d] - 1.0);
-    last = std::clamp(last, first, cells[d] - 1.0);
+  if (grid.goes_round[d]) {
+    const auto cell = [this, d](double x) { return std::floor((x - grid.lo[d]) / grid.edge[d]); };
+    axis.first = static_cast<int>(cell(from));
+    axis.count = static_cast<int>(cell(to) - cell(from)) + 1;
+  } else {
+    axis.first = grid.cell_of(from, d);
+    axis.count = std::max(grid.cell_of(to, d) - axis.first, 0) + 1;
   }
-  axis.first = static_cast<int>(first);
-  axis.count = static_cast<int>(last - first) + 1;
   axis.offsets.clear();
   axis.values.clear();
-  for (int k = 0; k < axis.count; k++) axis.offsets.push_back(offset_of(axis.first + k, d));
-}
-
-int GridCells::offset_of(int cell, int d) const
-{
-  const int at = goes_round[d] ? (cell % cells[d] + cells[d]) % cells[d] : cell;
-  return d == 0 ? at : (d == 1 ? at * cells[0] : at * cells[1] * cells[0]);
+  for (int k = 0; k < axis.count; k++) axis.offsets.push_back(grid.offset_of(axis.first + k, d));
 }
 
 bool GridCells::find_shares(const double *given, double radius, std::vector<Share> &shares) const
 {
   shares.clear();
   double x[3];
-  for (int d = 0; d < 3; d++) {
-    x[d] = place(given, d);
-    if (!(x[d] >= lo[d] && x[d] <= hi[d])) return false;
-  }
+  if (!grid.find_place(given, x)) return false;
   if (kernel.shape == FluidKernel::Shape::GAUSSIAN)
     spread_gaussian(x, shares);
   else
@@ -112,8 +75,8 @@ void GridCells::divide_ball(const double (&x)[3], double radius, std::vector<Sha
     reach(x[d] - radius, x[d] + radius, d, axis);
     for (int k = 0; k <= axis.count; k++) {
       const int cell = axis.first + k;
-      const double face = lo[d] + cell * edge[d];
-      const bool of_grid = !goes_round[d] && (cell == 0 || cell == cells[d]);
+      const double face = grid.lo[d] + cell * grid.edge[d];
+      const bool of_grid = !grid.goes_round[d] && (cell == 0 || cell == grid.cells[d]);
       const bool outer = !of_grid && (k == 0 || k == axis.count);
       axis.values.push_back(outer ? (k ? beyond : -beyond) : (face - x[d]) / radius);
     }
@@ -156,7 +119,7 @@ void GridCells::spread_gaussian(const double (&x)[3], std::vector<Share> &shares
       continue;
     }
     const auto below = [&](int k) {
-      const double face = lo[d] + (axis.first + k) * edge[d];
+      const double face = grid.lo[d] + (axis.first + k) * grid.edge[d];
       return std::erf((std::clamp(face, from, to) - x[d]) / kernel.width);
     };
     double before = below(0);
@@ -180,10 +143,7 @@ void GridCells::spread_gaussian(const double (&x)[3], std::vector<Share> &shares
 int GridCells::nearest_to(const double *x) const
 {
   int number = 0;
-  for (int d = 0; d < 3; d++) {
-    const double cell = std::floor((place(x, d) - lo[d]) / edge[d]);
-    number += offset_of(static_cast<int>(std::clamp(cell, 0.0, cells[d] - 1.0)), d);
-  }
+  for (int d = 0; d < 3; d++) number += grid.offset_of(grid.cell_of(grid.place(x, d), d), d);
   return number;
 }
 

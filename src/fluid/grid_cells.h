@@ -1,13 +1,13 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Cells of a fluid that are the boxes of a regular grid along the axes. A grain is in it if its center is. Both kernels are
+// Cells of a fluid that are those of a grid (fluid/cell_grid.h). A grain is in it if its center is. Both kernels are
 // integrated exactly over cells: the ball of the top hat is cut by their faces (fluid/ball_parts.h), the Gaussian is a product
-// of error functions, each up to 3 widths. Where the grid fills a period it goes on at the other side.
+// of error functions, each up to 3 widths.
 
 #ifndef TALUS_FLUID_GRID_CELLS_H
 #define TALUS_FLUID_GRID_CELLS_H
 
-#include "fluid/fluid_cells.h"
+#include "fluid/cell_grid.h"
 #include "fluid/fluid_kernel.h"
 
 #include <string>
@@ -24,8 +24,8 @@ class GridCells : public FluidCells {
   static std::string problem(const FluidKernel &kernel, const double *lo, const double *hi,
                              const int *cells, const Periods &periods);
 
-  int size() const override { return cells[0] * cells[1] * cells[2]; }
-  double volume(int) const override { return edge[0] * edge[1] * edge[2]; }
+  int size() const override { return grid.size(); }
+  double volume(int) const override { return grid.volume_of_cell(); }
   bool find_shares(const double *x, double radius, std::vector<Share> &shares) const override;
   int nearest_to(const double *x) const override;
 
@@ -37,17 +37,12 @@ class GridCells : public FluidCells {
     std::vector<int> offsets;
     std::vector<double> values;
   };
-  double place(const double *x, int d) const;
   void reach(double from, double to, int d, Axis &axis) const;
-  int offset_of(int cell, int d) const;
   void divide_ball(const double (&x)[3], double radius, std::vector<Share> &shares) const;
   void spread_gaussian(const double (&x)[3], std::vector<Share> &shares) const;
 
   FluidKernel kernel;
-  double lo[3], hi[3], edge[3];
-  int cells[3];
-  Periods periods;
-  bool goes_round[3];
+  CellGrid grid;
 };
 
 }    // namespace Talus

@@ -1,7 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What particles have, as a field on a grid that another program gives: a box along the axes with cells
-// of one size. A particle whose center is in the grid is smeared over its cells with the kernel of
+// What particles have, as a field on a grid that another program gives (fluid/cell_grid.h). A particle whose center is in the grid is smeared over its cells with the kernel of
 // compute coarse/grid (coarse_kernel.h), or all of it is in the cell of its center with width 0. All
 // that it has is in cells of the grid: at a border the kernel is cut and what is left of it scaled up;
 // along a period that the grid fills it goes on at the other side. Sums have the same bits on any
@@ -10,12 +9,11 @@
 #ifndef TALUS_SYSTEM_LOADS_GRID_FIELD_H
 #define TALUS_SYSTEM_LOADS_GRID_FIELD_H
 
-#include "base/vector3.h"
+#include "fluid/cell_grid.h"
 #include "system/loads/coarse_kernel.h"
 
 #include "pointers.h"
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -40,18 +38,13 @@ class GridField : protected LAMMPS_NS::Pointers {
   std::vector<double> smear(int values, const Amounts &amounts) const;
 
  private:
-  std::array<double, 3> place_of(int i) const;
-  bool contains(const std::array<double, 3> &x) const;
   std::vector<double> largest_amounts(int values, const Amounts &amounts) const;
   /// visit(cell, weight) for those that a particle at x is in.
   template <class Visit>
-  void for_each_share(CoarseKernel &kernel, const std::array<double, 3> &x, Visit visit) const;
-  std::size_t number_of(const int (&cell)[3]) const;
-  double volume_of_cell() const { return edge[0] * edge[1] * edge[2]; }
+  void for_each_share(CoarseKernel &kernel, const double (&x)[3], Visit visit) const;
 
-  double lo[3], hi[3], edge[3], width;
-  int cells[3];
-  bool goes_round[3];    // it fills a period
+  CellGrid grid;
+  double width;
 };
 
 }    // namespace Talus
