@@ -36,7 +36,7 @@
 #include "system/contacts/fix_pair_history.h"
 #include "system/exchange/exchange_switch.h"
 #include "system/host/lammps_compat.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/loads/fix_external_loads.h"
 #include "talus_abi.h"
 

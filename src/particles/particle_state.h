@@ -127,7 +127,6 @@ class ParticleState {
 
   // ---- by place
 
-  Vector3<double> position_at(int place) const { return vector(row_at(place)); }
   double radius_at(int place) const
   {
     return in_records ? in_records->position[place].c[3] : arrays.radius[place];

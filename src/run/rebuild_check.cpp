@@ -51,7 +51,23 @@ RebuildCheck::~RebuildCheck()
 void RebuildCheck::list_is_new()
 {
   list_step = neighbor->lastcall;
-  corners_of_list = box_corners();
+  corners_of_list = corners_of(DomainBox::of(*domain));
+}
+
+void RebuildCheck::start_run(const NeighborLists &present)
+{
+  delayed = unforeseen = 0;
+  if (present.number() != number) {
+    list_step = neighbor->lastcall;
+    corners_of_list = corners_of(present.box());
+  }
+  ask(nullptr);
+}
+
+void RebuildCheck::end_run(const NeighborLists &present)
+{
+  drop();
+  number = present.number();
 }
 
 void RebuildCheck::ask(GranularSystem *in_records)
@@ -71,7 +87,7 @@ void RebuildCheck::ask(GranularSystem *in_records)
     here = forecast_motion(n, atom->x[0], then[0], atom->v[0], update->dt);
   lengths->mine[0] = here.moved;
   lengths->mine[1] = here.step;
-  if (domain->box_change) corners_when_asked = box_corners();
+  if (domain->box_change) corners_when_asked = corners_of(DomainBox::of(*domain));
   asked = true;
   if (comm->nprocs > 1)
     MPI_Iallreduce(lengths->mine, lengths->all, 2, MPI_DOUBLE, MPI_MAX, own_world, &request);
@@ -124,16 +140,16 @@ void RebuildCheck::drop()
 
 /* ---------------------------------------------------------------------- */
 
-RebuildCheck::Corners RebuildCheck::box_corners() const
+RebuildCheck::Corners RebuildCheck::corners_of(const DomainBox &box)
 {
   Corners corners;
+  const auto &[xy, xz, yz] = box.tilt;
   for (int c = 0; c < 8; c++) {
     const double i = c & 1, j = c >> 1 & 1, k = c >> 2;
-    const bool tilted = domain->triclinic != 0;
-    corners[c] = {domain->boxlo[0] + i * domain->xprd +
-                      (tilted ? j * domain->xy + k * domain->xz : 0.0),
-                  domain->boxlo[1] + j * domain->yprd + (tilted ? k * domain->yz : 0.0),
-                  domain->boxlo[2] + k * domain->zprd};
+    const auto along = [&box](int d, double share) {
+      return box.low[d] + share * (box.high[d] - box.low[d]);
+    };
+    corners[c] = {along(0, i) + (j * xy + k * xz), along(1, j) + k * yz, along(2, k)};
   }
   return corners;
 }
@@ -151,7 +167,7 @@ bool RebuildCheck::has_left(double moved) const
 double RebuildCheck::limit() const
 {
   if (!domain->box_change) return 0.5 * neighbor->skin;
-  const Corners now = box_corners();
+  const Corners now = corners_of(DomainBox::of(*domain));
   double first = 0.0, second = 0.0;
   for (int c = 0; c < 8; c++) {
     if (!domain->triclinic && c != 0 && c != 7) continue;
@@ -167,7 +183,7 @@ double RebuildCheck::limit() const
 double RebuildCheck::limit_when_asked() const
 {
   if (!domain->box_change) return limit();
-  const Corners now = box_corners();
+  const Corners now = corners_of(DomainBox::of(*domain));
   double since = 0.0;
   for (int c = 0; c < 8; c++) since = std::max(since, distance(corners_when_asked[c], now[c]));
   return std::max(0.0, limit() - since);

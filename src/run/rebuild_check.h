@@ -15,6 +15,7 @@
 #define TALUS_RUN_REBUILD_CHECK_H
 
 #include "exchange/motion_forecast.h"
+#include "system/step/neighbor_lists.h"
 
 #include "pointers.h"
 
@@ -47,20 +48,22 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   /// tells how far the particles of this rank are from where they were when lists were made.
   bool decide(const std::function<double()> &moved);
 
-  /// At the end of a run: what was asked is not needed.
-  void drop();
+  /// At the start of a run, and at its end, where what was asked is not needed: lists that have other numbers
+  /// between them come from a snapshot.
+  void start_run(const NeighborLists &present);
+  void end_run(const NeighborLists &present);
 
   /// Lists that were used too long, in this run: because `neigh_modify every` and `delay` left no
   /// step before in which they could be rebuilt, or because particles moved further than
   /// foreseen.
   int num_delayed() const { return delayed; }
   int num_unforeseen() const { return unforeseen; }
-  void start_count() { delayed = unforeseen = 0; }
 
  private:
   MotionForecast forecast(Talus::GranularSystem &in_records) const;
   using Corners = std::array<std::array<double, 3>, 8>;
-  Corners box_corners() const;
+  void drop();
+  static Corners corners_of(const DomainBox &box);
   double limit() const;
   double limit_when_asked() const;
   bool has_left(double moved) const;
@@ -73,6 +76,7 @@ class RebuildCheck : protected LAMMPS_NS::Pointers {
   };
   std::unique_ptr<Lengths> lengths = std::make_unique<Lengths>();    ///< MPI writes here
   LAMMPS_NS::bigint list_step = -1;    ///< when the lists were made, as far as we know
+  LAMMPS_NS::bigint number = 0;        ///< of NeighborLists, at the end of the last run
   Corners corners_of_list{}, corners_when_asked{};
   int delayed = 0, unforeseen = 0;
 };

@@ -2,7 +2,6 @@
 
 #include "run/verlet_proxy.h"
 
-#include "run/machines.h"
 #include "run/overlap_hazards.h"
 #include "system/host/command_words.h"
 #include "system/monitor/exchange_report.h"
@@ -34,6 +33,7 @@ using namespace Talus;
 VerletProxy::VerletProxy(LAMMPS *lmp, int narg, char **arg) :
     Verlet(lmp, 0, nullptr), system(GranularSystem::of(lmp)), box_speeds(lmp)
 {
+  system->setup_state().expect_new_run_style();
   if (std::strcmp(update->integrate_style, "verlet") == 0) return;
   Words words = command_words(lmp, "run_style verlet/proxy", narg, arg, 0, 1);
   if (words.at_end()) return;
@@ -64,7 +64,7 @@ void VerletProxy::setup(int flag)
   system->steps_in_records().report(pair_compute_flag);
   Verlet::setup(flag);
   if (lists) lists->list_is_new();
-  ever_set_up = set_up = true;
+  set_up = true;
   needs_lists = false;
   system->setup_state().record_setup();
 }
@@ -75,9 +75,20 @@ void VerletProxy::setup_minimal(int flag)
   if (flag && lists) lists->list_is_new();
 }
 
-void VerletProxy::lists_are_made()
+/* Whether messages between ranks leave a machine: then some neighbors are on two, since the grid of sub-domains is
+   connected. Collective. */
+
+static bool spans_machines(MPI_Comm world)
 {
-  if (lists) lists->list_is_new();
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(world, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  int ranks = 1, ranks_here = 1;
+  MPI_Comm_size(world, &ranks);
+  MPI_Comm_size(machine, &ranks_here);
+  MPI_Comm_free(&machine);
+  int mine = ranks_here < ranks, any = 0;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  return any != 0;
 }
 
 /* Within one machine it costs more than messages do. */
@@ -123,8 +134,7 @@ void VerletProxy::run(int n)
     proxies->set_overlap(overlaps);
   }
   if (!makes_own_steps() || !lists) return Verlet::run(n);
-  lists->start_count();
-  lists->ask(nullptr);
+  lists->start_run(system->lists());
   system->step().start_run(pair_compute_flag);
   box_speeds.start();
   reverses = force->newton && others_act_on_ghosts();
@@ -142,7 +152,7 @@ void VerletProxy::run(int n)
     step();
   }
   timer->stamp(Timer::MODIFY);
-  lists->drop();
+  lists->end_run(system->lists());
 }
 
 /* The pair style does not: every rank computes all contacts of its particles. */

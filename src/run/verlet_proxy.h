@@ -13,7 +13,7 @@
 
 #include "run/rebuild_check.h"
 #include "system/host/box_speeds.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
 #include "verlet.h"
@@ -24,7 +24,7 @@
 
 namespace LAMMPS_NS {
 
-class VerletProxy : public Verlet, public Talus::SystemRunStyle {
+class VerletProxy : public Verlet, public Talus::SystemStyle {
  public:
   VerletProxy(class LAMMPS *, int, char **);
   void init() override;
@@ -32,9 +32,8 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   void setup_minimal(int) override;
   void run(int) override;
   void cleanup() override;
+  std::string plain_style() const override { return "verlet"; }
   std::string reason_for_stock() const override;
-  void lists_are_made() override;
-  bool was_set_up() const override { return ever_set_up; }
 
  private:
   enum class Overlap { AUTOMATIC, YES, NO };
@@ -52,13 +51,13 @@ class VerletProxy : public Verlet, public Talus::SystemRunStyle {
   std::shared_ptr<Talus::GranularSystem> system;
   Talus::BoxSpeeds box_speeds;
   Overlap wanted = Overlap::AUTOMATIC;
-  std::optional<bool> on_machines;             ///< more than one
-  bool ever_set_up = false, set_up = false;    ///< the second: for the coming run
-  bool needs_lists = false;                    ///< the next step makes neighbor lists
-  bool overlaps = false;                       ///< in this run
-  bool reverses = false;                       ///< in this run forces on ghosts go to their owners
-  Talus::ExchangeCounters at_start;            ///< of the run
-  std::string announced;                       ///< last reason given for not overlapping
+  std::optional<bool> on_machines;     ///< more than one
+  bool set_up = false;                 ///< for the coming run
+  bool needs_lists = false;            ///< the next step makes neighbor lists
+  bool overlaps = false;               ///< in this run
+  bool reverses = false;               ///< in this run forces on ghosts go to their owners
+  Talus::ExchangeCounters at_start;    ///< of the run
+  std::string announced;               ///< last reason given for not overlapping
 };
 
 }    // namespace LAMMPS_NS

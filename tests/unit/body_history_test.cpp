@@ -292,29 +292,6 @@ TEST(SeveralContacts, BeginWithAnOverlap)
   EXPECT_EQ(history.record(1).c[0], 7.0);
 }
 
-namespace {
-
-/// Contacts last without overlap if the last number of their history is below zero, and are found with
-/// one that touches as well.
-class Beyond : public BodyHistory::Ends {
- public:
-  explicit Beyond(double tilt) : tilt(tilt) {}
-  bool lasts(const Record &history) const override { return history.c[3] < 0.0; }
-  int look_further(SurfaceContact *found) const override
-  {
-    asked++;
-    found[0] = {tilted(2.0), 0.1};
-    found[1] = {tilted(tilt), -0.03};
-    return 2;
-  }
-  mutable int asked = 0;
-
- private:
-  double tilt;
-};
-
-}    // namespace
-
 // Of second order: for the step in which they end.
 TEST(SeveralContacts, LastForTheStepInWhichTheyEnd)
 {
@@ -326,24 +303,33 @@ TEST(SeveralContacts, LastForTheStepInWhichTheyEnd)
   history.record(0).c[3] = history.record(1).c[3] = -1.0;
   history.record(0).c[0] = 7.0;
 
-  const Beyond near(0.1), elsewhere(1.0);
+  int asked = 0;    // what is found there is near the first contact, and one that touches as well
+  const auto beyond = [&asked](double tilt) {
+    return BodyHistory::Ends{true, [&asked, tilt](SurfaceContact *far) {
+                               asked++;
+                               far[0] = {tilted(2.0), 0.1};
+                               far[1] = {tilted(tilt), -0.03};
+                               return 2;
+                             }};
+  };
+  const BodyHistory::Ends near = beyond(0.1), elsewhere = beyond(1.0);
   found[0] = {tilted(0.0), 0.2};
   found[1] = {tilted(2.0), 0.1};
   EXPECT_EQ(history.continue_contacts(0, found, 2, nullptr, &near), 2);
-  EXPECT_EQ(near.asked, 0) << "none has ended";
+  EXPECT_EQ(asked, 0) << "none has ended";
 
   found[0] = {tilted(2.0), 0.1};
   ASSERT_EQ(history.continue_contacts(0, found, 1, nullptr, &near), 2);
-  EXPECT_EQ(near.asked, 1);
+  EXPECT_EQ(asked, 1);
   EXPECT_EQ(found[1].overlap, -0.03);
   EXPECT_EQ(history.record(1).c[0], 7.0);
   history.record(1).c[3] = 1.0;    // that has been its last step
   found[0] = {tilted(2.0), 0.1};
   EXPECT_EQ(history.continue_contacts(0, found, 1, nullptr, &near), 1);
-  EXPECT_EQ(near.asked, 1);
+  EXPECT_EQ(asked, 1);
 
   EXPECT_EQ(history.continue_contacts(0, found, 0, nullptr, &elsewhere), 0);
-  EXPECT_EQ(elsewhere.asked, 1) << "but what is found there is another contact";
+  EXPECT_EQ(asked, 2) << "but what is found there is another contact";
 }
 
 // A particle keeps its contacts even if the new list has less room for it.

@@ -160,7 +160,7 @@ unsigned BodyBatch::just_ended(std::size_t first, const EightSpheres &in_body, u
   for (; bits; bits &= bits - 1U) {
     const int k = __builtin_ctz(bits);
     if (!has_just_ended(task->history.record(first + k).c[3], task->step.advance)) continue;
-    const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
+    const Vector3<double> x = in_body.at(k);
     const double r = in_body.radius[k];
     SurfaceContact far;
     if (!task->shape.touches(x, 2.0 * r, far)) continue;

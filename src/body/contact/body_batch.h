@@ -109,7 +109,8 @@ class BodyBatch {
   bool has_begun(std::size_t c) const { return task->with_history && task->history.count(c) > 0; }
   void take_told(std::size_t first, const EightSpheres &in_body, unsigned bits, unsigned touching);
   void take_eight(std::size_t first, unsigned bits);
-  int find_by_parts(std::size_t c, const EightSpheres &reaching, int k);
+  int find_by_parts(std::size_t c, const Vector3<double> &x, double r,
+                    SurfaceContact *contacts_found) const;
   void take_found(std::size_t c, const EightSpheres &in_body, int k, int count);
   void prefetch_parts(std::size_t first) const;
   void append(std::size_t candidate, int k, int n);

@@ -4,9 +4,8 @@
 
 #include "body/contact/body_batch.h"
 
-#include "laws/tangential/end_of_contact.h"
-
 #include <algorithm>
+#include <functional>
 
 namespace Talus {
 namespace {
@@ -14,35 +13,6 @@ namespace {
 constexpr int width = EightSpheres::width;
 constexpr std::size_t position_ahead = 24;    // candidates whose positions are prefetched
 static_assert(position_ahead + width <= BodyTask::spare);
-
-/// Of a sphere, by candidate, place in the frame of the body and radius.
-class EndsOfContacts : public BodyHistory::Ends {
- public:
-  EndsOfContacts(const BodyTask &task, std::size_t c, const Vector3<double> &x, double r) :
-      task(task), c(c), x(x), r(r)
-  {
-  }
-  bool lasts(const Record &history) const override
-  {
-    return has_just_ended(history.c[3], task.step.advance);
-  }
-  int look_further(SurfaceContact *found) const override
-  {
-    constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
-    bool may_touch;
-    const NearParts near =
-        task.candidates.parts_near(task.frame, c, x, (1.0 + further) * r, may_touch);
-    const int count = may_touch ? task.shape.find_contacts(x, (1.0 + further) * r, near, found) : 0;
-    for (int k = 0; k < count; k++) found[k].overlap -= further * r;
-    return std::max(count, 0);
-  }
-
- private:
-  const BodyTask &task;
-  std::size_t c;
-  const Vector3<double> &x;
-  double r;
-};
 
 }    // namespace
 
@@ -72,7 +42,7 @@ void BodyBatch::look_at_eight_by_parts(std::size_t first, int low, int high)
     const int k = __builtin_ctz(next);
     const bool begun = has_begun(first + k);
     if (!(near & next) && !begun) continue;
-    const int count = find_by_parts(first + k, reaching, k);
+    const int count = find_by_parts(first + k, reaching.at(k), reaching.radius[k], found);
     if (count > 0 || (count == 0 && begun)) take_found(first + k, in_body, k, count);
   }
 }
@@ -125,13 +95,14 @@ void BodyBatch::take_eight(std::size_t first, unsigned bits)
   if (filled == ContactBatch::width) flush();
 }
 
-int BodyBatch::find_by_parts(std::size_t c, const EightSpheres &reaching, int k)
+/* Of a sphere, by candidate, place in the frame of the body and radius. */
+
+int BodyBatch::find_by_parts(std::size_t c, const Vector3<double> &x, double r,
+                             SurfaceContact *contacts_found) const
 {
-  const Vector3<double> x{reaching.center[0][k], reaching.center[1][k], reaching.center[2][k]};
-  const double r = reaching.radius[k];
   bool may_touch;
   const NearParts near = task->candidates.parts_near(task->frame, c, x, r, may_touch);
-  return may_touch ? task->shape.find_contacts(x, r, near, found) : 0;
+  return may_touch ? task->shape.find_contacts(x, r, near, contacts_found) : 0;
 }
 
 /* Of candidate c, the sphere in lane k. */
@@ -140,11 +111,18 @@ void BodyBatch::take_found(std::size_t c, const EightSpheres &in_body, int k, in
 {
   for (int n = 0; n < count; n++) found[n].overlap -= pulloff[k];
   if (task->with_history) {
-    const Vector3<double> x{in_body.center[0][k], in_body.center[1][k], in_body.center[2][k]};
-    const EndsOfContacts ends(*task, c, x, spheres.radius[k]);
+    const auto look_further = [&](SurfaceContact *far) {
+      constexpr double further = 0.1;    // of the radius: more than a contact opens in one step
+      const double r = spheres.radius[k];
+      const int num_far = find_by_parts(c, in_body.at(k), (1.0 + further) * r, far);
+      for (int n = 0; n < num_far; n++) far[n].overlap -= further * r;
+      return std::max(num_far, 0);
+    };
+    const bool last = law.tangential().second_order;
+    BodyHistory::Ends ends{task->step.advance, {}};
+    if (last) ends.look_further = std::cref(look_further);    // needs no memory
     count = task->history.continue_found(c, found, count, slots_of_found, before,
-                                         law.tangential().second_order ? &ends : nullptr,
-                                         law.reaches());
+                                         last ? &ends : nullptr, law.reaches());
   }
   if (count) task->view.prefetch_for_contact(task->index[c]);
   for (int n = 0; n < count; n++) append(c, k, n);

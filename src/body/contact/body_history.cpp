@@ -2,6 +2,8 @@
 
 #include "body/contact/body_history.h"
 
+#include "laws/tangential/end_of_contact.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -191,7 +193,8 @@ int BodyHistory::continue_contacts(std::size_t candidate, SurfaceContact *found,
   for (int k = 0; k < known.count; k++) {
     known.contact[k].normal = normals[slot + k];
     rows.get(slot + k, known.contact[k].history);
-    if (ends && !ends->lasts(known.contact[k].history[0])) last &= ~(1U << k);
+    if (ends && !has_just_ended(known.contact[k].history[0].c[3], ends->advance))
+      last &= ~(1U << k);
   }
   int left = 0;
   const auto keep_contact = [&](const SurfaceContact &contact, int with) {

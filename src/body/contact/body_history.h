@@ -23,6 +23,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -114,7 +115,7 @@ class BodyHistory : public ContactMemory::Holder {
 
   /// With several(): the contacts that a candidate has now. Returns how many of `found` there are then,
   /// and fills in the slot of each; by_parts() says which of the following two does it.
-  class Ends;
+  struct Ends;
   int continue_found(std::size_t candidate, SurfaceContact *found, int count, std::uint32_t *slots,
                      Vector3<double> *before, const Ends *ends, bool reaches = false)
   {
@@ -151,16 +152,11 @@ class BodyHistory : public ContactMemory::Holder {
   /// LargeBodyShape::max_contacts. `before`: nullptr, or receives the normals that they had, zero of
   /// new ones. `ends`: of laws of second order, whose contacts last for the step in which they end. `reaches`: they begin
   /// without overlap.
-  class Ends {
-   public:
-    /// Whether a contact with this first record of its history goes on without overlap.
-    virtual bool lasts(const Record &history) const = 0;
+  struct Ends {
+    bool advance;    ///< see has_just_ended()
     /// As LargeBodyShape::find_contacts(), also of what is a little further away, with overlaps below
     /// zero. Called only where a contact has ended.
-    virtual int look_further(SurfaceContact *found) const = 0;
-
-   protected:
-    ~Ends() = default;
+    std::function<int(SurfaceContact *found)> look_further;
   };
   int continue_contacts(std::size_t candidate, SurfaceContact *found, int count,
                         Vector3<double> *before = nullptr, const Ends *ends = nullptr,

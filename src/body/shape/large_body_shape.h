@@ -49,6 +49,8 @@ struct SurfaceContact {
 struct EightSpheres {
   static constexpr int width = 8;
   alignas(64) double center[3][width], radius[width];
+
+  Vector3<double> at(int k) const { return {center[0][k], center[1][k], center[2][k]}; }
 };
 
 /// Where they touch a body; see SurfaceContact.

@@ -5,7 +5,7 @@
 #include "system/contacts/bond_account.h"
 #include "system/host/fix_list.h"
 #include "system/host/restart_data.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/shapes/shaped_particles.h"
 #include "system/step/granular_system.h"
 
@@ -174,31 +174,16 @@ void FixContactStore::pre_exchange()
   next_reneighbor = next_refresh(update->ntimestep);
 }
 
-void FixContactStore::min_pre_exchange()
-{
-  pre_exchange();
-}
-
 void FixContactStore::setup_pre_exchange()
 {
   if (!has_pairs()) return;
   // a run style of LAMMPS cannot do so
-  const bool run_style_is_talus = Talus::SystemRunStyle::of(update->integrate) != nullptr;
-  if (update->whichflag == 1 && !run_style_is_talus) system->steps_in_records().report(true);
+  if (update->whichflag == 1 && !Talus::SystemStyle::of(update->integrate))
+    system->steps_in_records().report(true);
   system->rebuild().release_pairs();
   take_over_sorting();
   sort_particles();
   keep_positions();
-}
-
-void FixContactStore::setup_pre_neighbor()
-{
-  put_positions_back();
-}
-
-void FixContactStore::pre_neighbor()
-{
-  put_positions_back();
 }
 
 void FixContactStore::post_neighbor()
@@ -208,16 +193,6 @@ void FixContactStore::post_neighbor()
     system->rebuild().renumber_pairs();
   else
     memory_of_contacts.drop_spheres();
-}
-
-void FixContactStore::min_post_neighbor()
-{
-  post_neighbor();
-}
-
-void FixContactStore::setup_post_neighbor()
-{
-  post_neighbor();
 }
 
 void FixContactStore::pairs_are_current()
@@ -233,11 +208,6 @@ void FixContactStore::keep_histories(int records, int integration_order)
   const int needed = std::max(records, 1);
   const bool old_ones = order != 0 && order != integration_order;
   store.keep(old_ones ? std::max(needed, store.num_records()) : needed);
-}
-
-void FixContactStore::setup(int)
-{
-  require_numbers();
 }
 
 void FixContactStore::end_of_step()

@@ -90,15 +90,15 @@ class FixContactStore : public Fix {
   void init() override;
   void setup_pre_exchange() override;
   void pre_exchange() override;
-  void min_pre_exchange() override;
-  void setup_pre_neighbor() override;
-  void pre_neighbor() override;
+  void min_pre_exchange() override { pre_exchange(); }
+  void setup_pre_neighbor() override { put_positions_back(); }
+  void pre_neighbor() override { put_positions_back(); }
   void post_neighbor() override;
-  void min_post_neighbor() override;
-  void setup_post_neighbor() override;
+  void min_post_neighbor() override { post_neighbor(); }
+  void setup_post_neighbor() override { post_neighbor(); }
   /// The last of the set-up, before its output, and outputs: positions and velocities have to be
   /// numbers.
-  void setup(int) override;
+  void setup(int) override { require_numbers(); }
   void end_of_step() override;
   void post_run() override;
 

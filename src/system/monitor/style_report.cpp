@@ -5,7 +5,6 @@
 #include "base/talus_version.h"
 #include "system/host/fix_list.h"
 #include "system/host/system_fix.h"
-#include "system/host/system_run_style.h"
 #include "system/host/system_style.h"
 #include "system/step/granular_system.h"
 
@@ -133,7 +132,7 @@ std::string StyleReport::lines_of_fixes() const
 
 std::string StyleReport::run_style_is() const
 {
-  const auto *talus_run_style = SystemRunStyle::of(update->integrate);
+  const auto *talus_run_style = SystemStyle::of(update->integrate);
   return how(talus_run_style ? talus_run_style->reason_for_stock() : "use run_style verlet");
 }
 

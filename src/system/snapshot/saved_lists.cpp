@@ -5,7 +5,6 @@
 #include "base/state_digest.h"
 #include "system/host/fix_list.h"
 #include "system/host/system_fix.h"
-#include "system/host/system_run_style.h"
 #include "system/step/granular_system.h"
 
 #include "atom.h"
@@ -130,15 +129,13 @@ bool SavedLists::make_again() const
   return true;
 }
 
-/* Run styles look for the step of the lists in LAMMPS. */
+/* Run styles look for the step of the lists in LAMMPS, and for their box in NeighborLists. */
 
 void SavedLists::run_hooks_and_build() const
 {
   if (modify->n_pre_neighbor) modify->pre_neighbor();
   neighbor->build(1);
   neighbor->lastcall = step;
-  if (SystemRunStyle *run_style = SystemRunStyle::of(update->integrate))
-    run_style->lists_are_made();
   // those of Talus list particles when all is restored
   for (Fix *fix : fix_list(*modify))
     if ((modify->get_fix_mask(fix) & FixConst::POST_NEIGHBOR) && !SystemFix::of(fix))

@@ -4,7 +4,7 @@
 
 #include "base/state_exchange.h"
 #include "system/contacts/fix_contact_store.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/shapes/shaped_particles.h"
 
 #include "atom.h"

@@ -5,7 +5,7 @@
 #include "base/state_digest.h"
 #include "system/host/fix_list.h"
 #include "system/host/private_members.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/host/time_formula.h"
 #include "system/regions/region_digest.h"
 #include "system/step/granular_system.h"
@@ -90,6 +90,7 @@ void SetupState::record_setup()
 {
   record();
   listed = then.fixes;
+  run_style_is_new = false;
 }
 
 void SetupState::record()
@@ -146,8 +147,8 @@ std::string SetupState::lost_here() const
 {
   if (!is_set_up) return "no run has been set up";
   if (then.run_style != update->integrate_style) return "the run style is another one";
-  const SystemRunStyle *const run_style = SystemRunStyle::of(update->integrate);
-  if (run_style && !run_style->was_set_up()) return "the run style has been defined anew";
+  if (run_style_is_new && SystemStyle::of(update->integrate))
+    return "the run style has been defined anew";
   if (then.pair != present_pair()) return "the pair style has been defined anew";
   if (then.communication != system.exchange().number_of_object())
     return "comm_style or comm_proxy has been changed";

@@ -37,6 +37,8 @@ class SetupState : protected LAMMPS_NS::Pointers {
   /// makes coefficients of the script's words again.
   void list_fixes();
   void expect_new_laws();
+  /// A run style of Talus has been defined.
+  void expect_new_run_style() { run_style_is_new = true; }
   /// A run has been set up.
   void record_setup();
   /// It has ended, which may have added or deleted particles; or a snapshot is restored.
@@ -81,6 +83,7 @@ class SetupState : protected LAMMPS_NS::Pointers {
   GranularSystem &system;
   List listed;                                       // fixes
   bool is_set_up = false, laws_are_known = false;    // the second: in an init()
+  bool run_style_is_new = false;
   SetUp then;
 };
 

@@ -4,7 +4,7 @@
 
 #include "system/contacts/fix_contact_store.h"
 #include "system/host/fix_list.h"
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 #include "system/shapes/shaped_particles.h"
 #include "system/step/granular_system.h"
 
@@ -73,7 +73,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
   const std::string of_pair_style = system.pair_style().reason_against();
   if (!of_pair_style.empty()) return of_pair_style;
   if (!pairs_computed) return "'pair_modify compute no' is set";
-  if (!SystemRunStyle::of(update->integrate))
+  if (!SystemStyle::of(update->integrate))
     return std::string("run style ") + update->integrate_style;
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";

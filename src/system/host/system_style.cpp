@@ -1,8 +1,15 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
+//
+// Which objects of LAMMPS are of Talus.
 
-#include "system/host/system_run_style.h"
+#include "system/host/system_style.h"
 
+#include "system/host/system_fix.h"
+
+#include "bond.h"
+#include "fix.h"
 #include "lammps.h"
+#include "pair.h"
 #include "update.h"
 #include "verlet.h"
 
@@ -12,6 +19,26 @@
 using namespace LAMMPS_NS;
 
 namespace Talus {
+
+SystemFix *SystemFix::of(Fix *fix)
+{
+  return dynamic_cast<SystemFix *>(fix);
+}
+
+const SystemStyle *SystemStyle::of(const Pair *pair)
+{
+  return dynamic_cast<const SystemStyle *>(pair);
+}
+
+const SystemStyle *SystemStyle::of(const Bond *bond)
+{
+  return dynamic_cast<const SystemStyle *>(bond);
+}
+
+const SystemStyle *SystemStyle::of(const Integrate *run_style)
+{
+  return dynamic_cast<const SystemStyle *>(run_style);
+}
 
 void make_run_style_the_default(LAMMPS *lmp)
 {
