@@ -4,7 +4,7 @@
 # particles/.
 set(talus_law_folders laws laws/normal laws/damping laws/tangential laws/rolling laws/twisting laws/cohesion laws/heat)
 set(talus_core_folders base ${talus_law_folders} material particles neighbors history contact body/shape body/motion
-  body/contact bonds fluid vtk packing shape shape/convex shape/superellipsoid shaped)
+  body/contact bonds fluid vtk packing shape shape/convex shape/superellipsoid shape/contact)
 
 function(talus_glob result)
   set(patterns ${ARGN})

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
 // The shape of particles. Derive from this class to add one, say in the table of collisions.h what
-// it touches, and how it is read from a script in shaped/shape_list.h; all else, such as laws,
+// it touches, and how it is read from a script in shape/contact/shape_list.h; all else, such as laws,
 // motion, ranks, restart files and pictures, is that of all shapes. shape/convex is one, and
 // tests/added_shape another.
 //

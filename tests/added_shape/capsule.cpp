@@ -6,11 +6,11 @@
 // deepest between them, which shares its energy with the ends (shape/convex/shared_energy.h).
 
 #include "body/shape/mesh_shape.h"
+#include "shape/contact/shape_list.h"
 #include "shape/convex/convex_shape.h"
 #include "shape/convex/core_pair.h"
 #include "shape/convex/shared_energy.h"
 #include "shape/surface.h"
-#include "shaped/shape_list.h"
 
 #include <algorithm>
 #include <cmath>

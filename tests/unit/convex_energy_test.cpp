@@ -11,8 +11,8 @@
 #include "body/shape/plane.h"
 #include "body/shape/rectangle.h"
 #include "convex_bodies.h"
+#include "shape/contact/body_surfaces.h"
 #include "shape/convex/convex_words.h"
-#include "shaped/body_surfaces.h"
 
 #include <gtest/gtest.h>
 

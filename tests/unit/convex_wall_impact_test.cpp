@@ -9,8 +9,8 @@
 #include "body/shape/mesh_shape.h"
 #include "body/shape/plane.h"
 #include "flying_body.h"
-#include "shaped/body_surfaces.h"
-#include "shaped/shape_list.h"
+#include "shape/contact/body_surfaces.h"
+#include "shape/contact/shape_list.h"
 
 #include <gtest/gtest.h>
 

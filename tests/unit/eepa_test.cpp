@@ -5,7 +5,7 @@
 #include "base/power.h"
 #include "driven_contact.h"
 #include "laws/second_order_laws.h"
-#include "shaped/point_batch.h"
+#include "shape/contact/point_batch.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "contacts_by_words.h"
 #include "laws/second_order_laws.h"
-#include "shaped/point_batch.h"
+#include "shape/contact/point_batch.h"
 
 #include <gtest/gtest.h>
 

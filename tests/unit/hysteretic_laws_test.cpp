@@ -4,7 +4,7 @@
 
 #include "driven_contact.h"
 #include "laws/second_order_laws.h"
-#include "shaped/point_batch.h"
+#include "shape/contact/point_batch.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "laws/second_order_laws.h"
 #include "material/law_table.h"
 #include "random_source.h"
-#include "shaped/point_batch.h"
+#include "shape/contact/point_batch.h"
 
 #include <gtest/gtest.h>
 

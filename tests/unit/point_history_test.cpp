@@ -3,8 +3,8 @@
 // What contact points of shapes keep: no law is taken that has more. Talus has none, but others may add theirs.
 
 #include "laws/law_list.h"
-#include "shaped/point_batch.h"
-#include "shaped/point_contact.h"
+#include "shape/contact/point_batch.h"
+#include "shape/contact/point_contact.h"
 
 #include <gtest/gtest.h>
 

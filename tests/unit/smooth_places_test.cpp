@@ -3,7 +3,7 @@
 // Superellipsoids on walls that are curved inward: each place that is touched counts once. On all surfaces forces are
 // minus the gradient of the energy; and histories stay with their places.
 
-#include "shaped/point_contact.h"
+#include "shape/contact/point_contact.h"
 #include "touched_surfaces.h"
 
 #include <gtest/gtest.h>

@@ -8,10 +8,10 @@
 #include "body/shape/frustum.h"
 #include "body/shape/mesh_shape.h"
 #include "convex_bodies.h"
+#include "shape/contact/shape_list.h"
 #include "shape/mesh_features.h"
 #include "shape/superellipsoid/superellipsoid.h"
 #include "shape/surface.h"
-#include "shaped/shape_list.h"
 #include "touched_surfaces.h"
 
 #include <gtest/gtest.h>

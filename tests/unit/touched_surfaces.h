@@ -10,10 +10,10 @@
 #include "body/shape/mesh_shape.h"
 #include "body/shape/surface_visitor.h"
 #include "convex_bodies.h"
+#include "shape/contact/shape_list.h"
 #include "shape/mesh_features.h"
 #include "shape/superellipsoid/superellipsoid.h"
 #include "shape/surface.h"
-#include "shaped/shape_list.h"
 
 #include <cmath>
 #include <memory>

@@ -32,7 +32,7 @@ FixStyle(shape/gran,FixShapeGran);
 #define LMP_FIX_SHAPE_GRAN_H
 
 #include "fix.h"
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 #include "system/bodies/image_triangles.h"
 #include "system/monitor/run_monitor.h"
 #include "system/shapes/shaped_particles.h"

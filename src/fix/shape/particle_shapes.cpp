@@ -2,8 +2,8 @@
 
 #include "fix/shape/particle_shapes.h"
 
+#include "shape/contact/shape_list.h"
 #include "shape/convex/collide.h"
-#include "shaped/shape_list.h"
 #include "system/host/shared_file.h"
 
 #include "atom.h"

@@ -6,8 +6,8 @@
 #define LMP_PARTICLE_SHAPES_H
 
 #include "base/words.h"
+#include "shape/contact/shape_table.h"
 #include "shape/shape_description.h"
-#include "shaped/shape_table.h"
 
 #include "pointers.h"
 

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// How scripts describe them, and what they touch: for shaped/shape_list.h.
+// How scripts describe them, and what they touch: for shape/contact/shape_list.h.
 //
 //   ellipsoid a b c                    half axes
 //   superellipsoid a b c n1 n2         with the exponents of superellipsoid.h

@@ -10,7 +10,7 @@
 #include "base/told_numbers.h"
 #include "comm.h"
 #include "error.h"
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 #include "update.h"
 
 #include <algorithm>

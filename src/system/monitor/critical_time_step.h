@@ -32,7 +32,7 @@
 #include "contact/contact_pipeline.h"
 #include "material/pair_coeffs.h"
 #include "pointers.h"
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 #include "system/monitor/elastic_impacts.h"
 #include "system/monitor/stable_time_step.h"
 #include "system/monitor/undamped_friction.h"

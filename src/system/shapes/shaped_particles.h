@@ -24,9 +24,9 @@
 #include "exchange/sparse_exchange.h"
 #include "history/contact_memory.h"
 #include "particles/particle_state.h"
-#include "shaped/body_points.h"
-#include "shaped/shape_table.h"
-#include "shaped/shaped_pairs.h"
+#include "shape/contact/body_points.h"
+#include "shape/contact/shape_table.h"
+#include "shape/contact/shaped_pairs.h"
 
 #include "pointers.h"
 

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/point_batch.h"
+#include "shape/contact/point_batch.h"
 
 #include "base/lanes.h"
 #include "material/run_laws.h"

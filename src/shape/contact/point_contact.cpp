@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/point_contact.h"
+#include "shape/contact/point_contact.h"
 
 #include "shape/shape_contact.h"
 

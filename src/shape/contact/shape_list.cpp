@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/shape_list.h"
+#include "shape/contact/shape_list.h"
 
 #include "shape/convex/convex_words.h"
 #include "shape/superellipsoid/superellipsoid_words.h"

@@ -5,12 +5,12 @@
 // its force acts at the point, where its owner finds the torques. R_eff is what the narrow phase
 // says, m_eff = 1/(1/m_1 + 1/m_2).
 
-#ifndef TALUS_SHAPED_POINT_BATCH_H
-#define TALUS_SHAPED_POINT_BATCH_H
+#ifndef TALUS_SHAPE_CONTACT_POINT_BATCH_H
+#define TALUS_SHAPE_CONTACT_POINT_BATCH_H
 
 #include "body/contact/computed_contacts.h"
 #include "material/law_table.h"
-#include "shaped/point_contact.h"
+#include "shape/contact/point_contact.h"
 
 #include <cstddef>
 #include <string>

@@ -2,8 +2,8 @@
 //
 // The list of all shapes.
 
-#ifndef TALUS_SHAPED_SHAPE_LIST_H
-#define TALUS_SHAPED_SHAPE_LIST_H
+#ifndef TALUS_SHAPE_CONTACT_SHAPE_LIST_H
+#define TALUS_SHAPE_CONTACT_SHAPE_LIST_H
 
 #include "shape/collisions.h"
 #include "shape/shape_description.h"

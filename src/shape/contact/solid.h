@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_SHAPED_SOLID_H
-#define TALUS_SHAPED_SOLID_H
+#ifndef TALUS_SHAPE_CONTACT_SOLID_H
+#define TALUS_SHAPE_CONTACT_SOLID_H
 
 #include "shape/pose.h"
 #include "shape/shape.h"

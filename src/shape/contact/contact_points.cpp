@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/contact_points.h"
+#include "shape/contact/contact_points.h"
 
 #include <algorithm>
 

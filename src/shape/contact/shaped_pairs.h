@@ -11,13 +11,13 @@
 // points in the order of the narrow phase. So forces have the same bits on any number of ranks and
 // threads. A pair across two ranks is computed by both.
 
-#ifndef TALUS_SHAPED_SHAPED_PAIRS_H
-#define TALUS_SHAPED_SHAPED_PAIRS_H
+#ifndef TALUS_SHAPE_CONTACT_SHAPED_PAIRS_H
+#define TALUS_SHAPE_CONTACT_SHAPED_PAIRS_H
 
-#include "shaped/contact_points.h"
-#include "shaped/shape_table.h"
-#include "shaped/shaped_view.h"
-#include "shaped/solid.h"
+#include "shape/contact/contact_points.h"
+#include "shape/contact/shape_table.h"
+#include "shape/contact/shaped_view.h"
+#include "shape/contact/solid.h"
 
 #include <array>
 #include <cstdint>

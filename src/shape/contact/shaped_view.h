@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_SHAPED_SHAPED_VIEW_H
-#define TALUS_SHAPED_SHAPED_VIEW_H
+#ifndef TALUS_SHAPE_CONTACT_SHAPED_VIEW_H
+#define TALUS_SHAPE_CONTACT_SHAPED_VIEW_H
 
 #include "base/linear_algebra.h"
 #include "particles/particle_state.h"

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_SHAPED_SHAPE_TABLE_H
-#define TALUS_SHAPED_SHAPE_TABLE_H
+#ifndef TALUS_SHAPE_CONTACT_SHAPE_TABLE_H
+#define TALUS_SHAPE_CONTACT_SHAPE_TABLE_H
 
 #include "body/motion/free_rotation.h"
 #include "shape/collisions.h"

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 
 #include "packing/random_numbers.h"
 

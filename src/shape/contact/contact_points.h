@@ -7,16 +7,16 @@
 //   at a rebuild   save() (if points are current), set_list(), restore_points()
 //   every step     compute_points(), with take_points() for what was found; then account_for_work()
 
-#ifndef TALUS_SHAPED_CONTACT_POINTS_H
-#define TALUS_SHAPED_CONTACT_POINTS_H
+#ifndef TALUS_SHAPE_CONTACT_CONTACT_POINTS_H
+#define TALUS_SHAPE_CONTACT_CONTACT_POINTS_H
 
 #include "base/in_parallel.h"
 #include "base/state_exchange.h"
 #include "history/contact_lists.h"
 #include "laws/deepest_contact.h"
 #include "shape/collisions.h"
+#include "shape/contact/point_batch.h"
 #include "shape/shape_contact.h"
-#include "shaped/point_batch.h"
 
 #include <cstdint>
 #include <limits>

@@ -1,10 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_SHAPED_BODY_SURFACES_H
-#define TALUS_SHAPED_BODY_SURFACES_H
+#ifndef TALUS_SHAPE_CONTACT_BODY_SURFACES_H
+#define TALUS_SHAPE_CONTACT_BODY_SURFACES_H
 
 #include "body/shape/large_body_shape.h"
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#ifndef TALUS_SHAPED_POINT_CONTACT_H
-#define TALUS_SHAPED_POINT_CONTACT_H
+#ifndef TALUS_SHAPE_CONTACT_POINT_CONTACT_H
+#define TALUS_SHAPE_CONTACT_POINT_CONTACT_H
 
 #include "base/vector3.h"
 #include "history/contact_lists.h"

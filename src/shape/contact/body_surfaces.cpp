@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/body_surfaces.h"
+#include "shape/contact/body_surfaces.h"
 
 #include "body/shape/mesh_shape.h"
 #include "body/shape/surface_visitor.h"

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/body_points.h"
+#include "shape/contact/body_points.h"
 
 #include "body/shape/moving_vertices.h"
 

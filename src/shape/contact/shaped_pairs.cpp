@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 
-#include "shaped/shaped_pairs.h"
+#include "shape/contact/shaped_pairs.h"
 
 #include <algorithm>
 #include <cstring>

@@ -7,15 +7,15 @@
 //   at a rebuild   save() (if points are current), set_particles()
 //   every step     compute()
 
-#ifndef TALUS_SHAPED_BODY_POINTS_H
-#define TALUS_SHAPED_BODY_POINTS_H
+#ifndef TALUS_SHAPE_CONTACT_BODY_POINTS_H
+#define TALUS_SHAPE_CONTACT_BODY_POINTS_H
 
 #include "body/contact/body_batch.h"
 #include "body/contact/body_contacts.h"
-#include "shaped/body_surfaces.h"
-#include "shaped/contact_points.h"
-#include "shaped/shape_table.h"
-#include "shaped/shaped_view.h"
+#include "shape/contact/body_surfaces.h"
+#include "shape/contact/contact_points.h"
+#include "shape/contact/shape_table.h"
+#include "shape/contact/shaped_view.h"
 
 #include <vector>
 
