@@ -64,7 +64,7 @@ class Pages(unittest.TestCase):
         text = read(PAGES[0])
         self.assertLessEqual(len(text.splitlines()), 200)
         scenes = re.findall(r"^\| `(\w+)` \| ([\d ]+) \|", text, re.M)
-        self.assertEqual(sorted(name for name, _ in scenes), ["dice", "drum", "gravel", "hopper", "lentils", "penetration", "settling", "wavetank"])
+        self.assertEqual(sorted(name for name, _ in scenes), ["crushing", "dice", "drum", "gravel", "hopper", "lentils", "penetration", "settling", "wavetank"])
         for name, number in scenes:
             self.assertRegex(read(os.path.join(ROOT, "input", f"in.{name}")), rf"scripts/run.* {number} (spheres|cubes|stones|grains)\n")
 

@@ -82,6 +82,18 @@ class Scenes(SceneCase):
         self.assertEqual(mass, sorted(mass))
         self.assertEqual(mass[0], 0.0)
 
+    def test_crushing(self):
+        found = self.simulate("crushing", np=2, way="through the arrays of LAMMPS: there are bonds", radius=3, strength=4e5, time=4e-4)
+        self.assertGreater(found["fragments"], 3)
+        self.assertLess(found["grains of the largest one"], found["grains"])
+        self.assertGreater(found["broken bonds"], 20)
+        self.assertGreater(found["energy of breaking / at impact"], 0.0)
+        self.assertLess(found["energy of breaking / at impact"], 0.5)
+        rows = self.table("fragments.txt")
+        self.assertEqual(rows[0][1], 1)
+        self.assertGreater(rows[-1][3], 20)
+        self.assertLessEqual(rows[-1][3], found["broken bonds"])
+
     def test_lentils(self):
         found = self.simulate("lentils", np=2, radius=5, settle=0.2, time=0.12)
         self.assertAlmostEqual(found["weight on hoppers and gate / weight"], 1.0, delta=0.3)
