@@ -8,7 +8,7 @@
 #define TALUS_SYSTEM_LOADS_SHAPE_SHADOWS_H
 
 #include "base/linear_algebra.h"
-#include "shaped/shape_table.h"
+#include "shape/contact/shape_table.h"
 
 #include <vector>
 
