@@ -20,7 +20,7 @@ namespace {
 constexpr int particles = 20;
 
 /// Of each particle one value or none.
-class Body : public ContactMemory::Holder {
+class Body final : public ContactMemory::Holder {
  public:
   Body(std::int64_t partner, std::uint64_t kind) : name(partner), feature(kind) {}
   std::map<int, double> held;
