@@ -308,10 +308,21 @@ class Frame:
     step: int
     columns: list
     atoms: dict
+    _by_name: dict = dataclasses.field(default_factory=dict, repr=False, compare=False)
 
     def column(self, name):
-        k = self.columns.index(name)
-        return {tag: row[k] for tag, row in self.atoms.items()}
+        """{id: number}, not to be changed."""
+        if name not in self._by_name:
+            k = self.columns.index(name)
+            self._by_name[name] = {tag: row[k] for tag, row in self.atoms.items()}
+        return self._by_name[name]
+
+    def largest(self, names):
+        """Absolute number of these columns."""
+        key = tuple(names)
+        if key not in self._by_name:
+            self._by_name[key] = max(abs(value) for name in names for value in self.column(name).values())
+        return self._by_name[key]
 
 
 def _number(word):

@@ -108,7 +108,7 @@ def difference(frame, other):
     most = 0.0
     for key in frame.columns:
         alike = [column for column in frame.columns if column[:2] == key[:2] or {column, key} <= {"x", "y", "z"}]
-        scale = max(abs(value) for column in alike for value in frame.column(column).values())
+        scale = frame.largest(alike)
         if scale > 0.0:
             most = max(most, max_difference(frame, other, [key]) / scale)
         elif max_difference(frame, other, [key]) > 0.0:

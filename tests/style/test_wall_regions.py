@@ -104,7 +104,7 @@ def differences(frame, other, tags):
     for first in "x", "vx", "omegax", "fx", "tqx":
         keys = [first[:-1] + axis for axis in "xyz"]
         mine, theirs = [frame.column(key) for key in keys], [other.column(key) for key in keys]
-        scale = max(abs(value) for column in mine for value in column.values()) or 1.0
+        scale = frame.largest(keys) or 1.0
         for tag in tags:
             found[tag] = max(found[tag], max(abs(a[tag] - b[tag]) for a, b in zip(mine, theirs)) / scale)
     return sorted(found.values(), reverse=True)
