@@ -10,7 +10,6 @@
 #include "laws/tangential/end_of_contact.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace Talus {
 namespace {
@@ -194,8 +193,7 @@ static HistoryIndices consecutive_history_indices(const ContactLaw &law)
 }
 
 /// The law without the stage that may follow a function for all others, if it has one: heat, behind a normal law that
-/// finds the circle again, or a liquid bridge, which reads nothing of other stages but their sums. (Of other laws that
-/// act beyond touch it is not known what they read.)
+/// finds the circle again, or cohesion that reads nothing of other stages but their sums.
 static ContactLaw before_last_stage(const ContactLaw &law)
 {
   const auto without = [&law](Stage stage) {
@@ -203,12 +201,9 @@ static ContactLaw before_last_stage(const ContactLaw &law)
     rest.choose(stage, laws_of(stage).front());
     return !law.tangential().second_order && rest.has_friction() ? rest : law;
   };
-  const auto coheres_by = [&law](const char *name) {
-    return std::strcmp(law.cohesion().name, name) == 0;
-  };
   const bool remembers = law.normal().odd_history + law.normal().even_history > 0;
   if (law.conducts_heat()) return remembers ? law : without(Stage::HEAT);
-  return coheres_by("willett") || coheres_by("rabinovich") ? without(Stage::COHESION) : law;
+  return law.cohesion().reads_sums_alone ? without(Stage::COHESION) : law;
 }
 
 ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)

@@ -89,7 +89,8 @@ struct Law {
   bool holds;           ///< rolling: a body at rest is held
   bool delayed;         ///< rolling, twisting: reads delayed_force
   bool hysteretic;      ///< normal: more work is done on it than it stores
-  double exponent;      ///< normal: elastic force ~ overlap^exponent
+  bool reads_sums_alone;    ///< cohesion: of what other stages find, nothing but their sums
+  double exponent;          ///< normal: elastic force ~ overlap^exponent
   bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
   bool cohesive;      ///< normal: adhesion of its own
   bool allows_cohesion;         ///< damping: may follow such a normal law

@@ -218,6 +218,7 @@ template <class L> constexpr Law make_law()
   law.allows_cohesion = L::allows_cohesion;
   law.lasts_beyond_contact = L::lasts_beyond_contact;
   law.hysteretic = L::hysteretic;
+  law.reads_sums_alone = L::reads_sums_alone;
   law.second_order = L::second_order;
   law.like_stock = L::like_stock;
   law.order_2 = L::order_2;

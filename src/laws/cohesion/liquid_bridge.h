@@ -39,7 +39,7 @@ template <class Real> struct Bridge {
 /// Model: name, label, and of a row and a bridge its force() and work(), the integral of the force from S = 0 on.
 template <class Model> struct LiquidBridge : CohesionLaw {
   static constexpr const char *name = Model::name, *label = Model::label;
-  static constexpr bool lasts_beyond_contact = true;
+  static constexpr bool lasts_beyond_contact = true, reads_sums_alone = true;
   template <class Real> using Row = BridgeRow<Real>;
   static constexpr CoefficientName coefficients[] = {{"gamma"},
                                                      {"cos_theta"},
