@@ -29,7 +29,7 @@ GridCells::GridCells(const FluidKernel &of_grains, const double *lo, const doubl
 std::string GridCells::problem(const FluidKernel &kernel, const double *lo, const double *hi,
                                const int *cells, const Periods &periods)
 {
-  const std::string of_grid = CellGrid(lo, hi, cells, periods).problem();
+  std::string of_grid = CellGrid(lo, hi, cells, periods).problem();
   if (!of_grid.empty()) return of_grid;
   const double longest = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
   return kernel.width > longest ? "the kernel is wider than the grid is long" : "";
