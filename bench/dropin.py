@@ -55,10 +55,7 @@ GRANULAR_BEDS = [
 ]
 POISSON = 0.3
 
-# solid fraction, floor of its ratio
-GASES = [(0.02, 3.0), (0.1, 3.0), (0.3, 3.5)]
-GAS_SIDE = 30       # spheres
-GAS = """units si
+SPHERES_IN_A_PERIOD = """units si
 atom_style sphere
 boundary p p p
 newton off
@@ -67,7 +64,12 @@ region box block 0 {edge} 0 {edge} 0 {edge} units box
 create_box 1 box
 lattice sc {apart}
 create_atoms 1 box
-set type 1 diameter 0.002
+"""
+
+# solid fraction, floor of its ratio
+GASES = [(0.02, 3.0), (0.1, 3.0), (0.3, 3.5)]
+GAS_SIDE = 30       # spheres
+GAS = SPHERES_IN_A_PERIOD + """set type 1 diameter 0.002
 set type 1 density 2500
 velocity all create 1 4711 dist uniform
 velocity all scale 1e18
@@ -116,16 +118,7 @@ run {steps}
 
 TRIAXIAL_SIDE = 12  # spheres
 TRIAXIAL_FLOOR = 3.0
-TRIAXIAL = """units si
-atom_style sphere
-boundary p p p
-newton off
-comm_modify vel yes
-region box block 0 {edge} 0 {edge} 0 {edge} units box
-create_box 1 box
-lattice sc 0.00108
-create_atoms 1 box
-set type 1 diameter 0.001
+TRIAXIAL = SPHERES_IN_A_PERIOD + """set type 1 diameter 0.001
 set type 1 density 2500
 displace_atoms all random 2e-5 2e-5 2e-5 4711
 pair_style granular
@@ -219,7 +212,7 @@ def bonded_cases(bench):
 def triaxial_cases(bench):
     if bench.wants("triaxial"):
         yield Case(bench, "triaxial", f"{TRIAXIAL_SIDE**3} spheres, periodic triaxial compression with fix deform/pressure",
-                   TRIAXIAL.format(edge=TRIAXIAL_SIDE * 0.00108, steps=bench.size(10000, 1000)), TRIAXIAL_FLOOR)
+                   TRIAXIAL.format(edge=TRIAXIAL_SIDE * 0.00108, apart=0.00108, steps=bench.size(10000, 1000)), TRIAXIAL_FLOOR)
 
 
 def input_case(bench, given, steps):

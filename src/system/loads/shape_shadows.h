@@ -2,7 +2,7 @@
 //
 // How large particles with a shape are as a fluid sees them: surfaces and cross sections over those of spheres of their
 // volume. Of convex shapes a cross section is half the sum of the faces' projections. Round surfaces are triangles with
-// corners on them, enlarged to the volume of the shape: within 0.1 %.
+// corners on them, enlarged to the volume of the shape: within 0.2 %.
 
 #ifndef TALUS_SYSTEM_LOADS_SHAPE_SHADOWS_H
 #define TALUS_SYSTEM_LOADS_SHAPE_SHADOWS_H
