@@ -20,10 +20,10 @@ TALUS_PARTNER_PACKAGES=(libmujoco-dev python3-getfem)
 # What the thread sanitizer needs besides: Clang, its sanitizers, and its OpenMP library.
 TALUS_THREAD_SANITIZER_PACKAGES=(clang libclang-rt-dev libomp-dev)
 
-# missing_packages PACKAGE...
+# missing_packages PACKAGE...: each once, also where two lists have it.
 missing_packages() {
   local package status
-  for package in "$@"; do
+  for package in $(printf '%s\n' "$@" | awk '!seen[$0]++'); do
     status=$(dpkg-query -W -f '${db:Status-Status}\n' "$package" 2>/dev/null) || status=
     grep -qx installed <<<"$status" || printf '%s\n' "$package"
   done
