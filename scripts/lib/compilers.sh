@@ -50,6 +50,15 @@ all_compilers() {
   done | awk '!seen[$0]++'
 }
 
+# oldest_compiler: of those that know every level of x86-64; that of the build where there is none.
+oldest_compiler() {
+  local compiler
+  for compiler in $(all_compilers) "$(host_compiler)"; do
+    if knows_level "$compiler" x86-64-v4; then break; fi
+  done
+  printf '%s' "$compiler"
+}
+
 # compile_core NAME TITLE "TARGETS" [options of CMake]: in build-NAME; all targets where none is named.
 compile_core() {
   local title=$2 dir=$TALUS_ROOT/build-$1 targets cache
