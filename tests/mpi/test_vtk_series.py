@@ -185,6 +185,10 @@ class Series(SceneCase):
                         "write_dump all vtk/gran one.pvd id vx vy vz modify contacts no\n", np=2)
         (_, parts), = read_series(self.path("one.pvd"))
         self.assertEqual(list(parts), ["grains"])
+        self.run_lammps(self.scene(bodies="", after="write_dump all vtk/gran one.pvd id\n"))    # contacts are those of the dump
+        last = [merged(read_part(read_series(self.path(name))[-1][1]["contacts"]), "cell_data", "force") for name in ("run.pvd", "one.pvd")]
+        self.assertTrue(len(last[0]))
+        self.assertEqual(*(repr(one) for one in last))
 
     def test_names_are_written_safely(self):
         os.mkdir(self.path("a&b"))
@@ -202,7 +206,7 @@ class Series(SceneCase):
                  (self.scene(modify="\ndump_modify vtk bodies"), "Illegal dump_modify bodies command: missing argument"),
                  (self.scene(modify="\ndump_modify vtk pbc yes"), "dump_modify pbc yes is not for dump vtk/gran"),
                  (self.scene(pair=lj, bodies=""), "no contacts: there is no pair style; use 'dump_modify vtk contacts no'"),
-                 (self.scene(bodies="", after="write_dump all vtk/gran one.pvd id\n"),
+                 (SCENE.format(pair=TALUS) + MOVE + "run 0\nwrite_dump all vtk/gran one.pvd id\n",
                   "contacts are known from the first run after the dump command on")]
         for script, message in cases:
             for np in (1, 2):

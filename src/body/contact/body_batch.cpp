@@ -37,6 +37,7 @@ void BodyBatch::start(bool with_exact)
   touched.clear();
   corners.clear();
   contacts_for_outputs.clear();
+  stored_energy = 0.0;
   work = EnergyByCause{};
 }
 

@@ -76,11 +76,12 @@ class BodyBatch {
 
   // results since start()
   BodyLoad load;
-  ExactLoad exact;                                      ///< if asked for
-  AlignedVector<TouchedPart> touched;                   ///< if asked for
-  std::vector<TouchedCorners> corners;                  ///< the same
-  std::vector<ComputedContact> contacts_for_outputs;    ///< the same
-  EnergyByCause work;                                   ///< if asked for
+  ExactLoad exact;                                    ///< if asked for
+  AlignedVector<TouchedPart> touched;                 ///< if asked for
+  std::vector<TouchedCorners> corners;                ///< the same
+  std::vector<ContactReport> contacts_for_outputs;    ///< the same
+  double stored_energy = 0.0;                         ///< the same, see ComputedContacts
+  EnergyByCause work;                                 ///< if asked for
 
   /// The deepest contact since forget_deepest(), if it is deeper than DeepestContact::watched.
   const DeepestInBody &deepest() const { return deepest_so_far; }
@@ -120,6 +121,7 @@ class BodyBatch {
   int part_of(int lane) const;
   void begin_records();
   void complete_records();
+  ContactReport report_of_lane(int lane) const;
   void record_parts();
 
   // meshes whose vertices move
@@ -167,6 +169,7 @@ class BodyBatch {
   int law_index = 0;
 
   ContactBatch batch;
+  std::vector<ContactState<double>> before_laws;    // by lane, for outputs
   int filled = 0, end = 0;    // lanes in use, and the same up to a multiple of eight
   std::uint32_t candidate_of_lane[ContactBatch::width] = {};
   std::uint32_t slot_of_lane[ContactBatch::width] = {};    // only with several contacts

@@ -48,39 +48,43 @@ int BodyBatch::part_of(int lane) const
 
 void BodyBatch::begin_records()
 {
-  for (int lane = 0; lane < filled; lane++) {
-    ComputedContact &one = contacts_for_outputs.emplace_back();
-    one.state = state_of_lane(batch, lane);
-    one.row = batch.coefficients[lane];
-  }
+  before_laws.clear();
+  for (int lane = 0; lane < filled; lane++) before_laws.push_back(state_of_lane(batch, lane));
 }
 
 /* Forces and torques are in space axes by now. Gaps through which nothing but heat passes are no contacts. */
 
+ContactReport BodyBatch::report_of_lane(int lane) const
+{
+  const ContactState<double> &state = before_laws[lane];
+  ContactReport to;
+  to.i = task->candidates.atom(candidate_of_lane[lane]);
+  to.part = part_of(lane);
+  to.center[0] = lane_of(place, lane);
+  to.normal = task->frame.to_space(state.normal);
+  to.overlap = state.overlap;
+  to.force = lane_of(batch.force, lane);
+  if (law.has_friction()) to.torque_per_radius = lane_of(batch.torque_per_radius, lane);
+  if (law.resists()) to.twisting_torque = lane_of(batch.twisting_torque, lane);
+  if (law.conducts_heat()) to.heat_flow = batch.heat_flow[lane];
+  for (int n = 0; task->with_history && n < 4 * task->history_records; n++)
+    to.history[n] = batch.history[n][lane];
+  const int row = batch.coefficients[lane];
+  to.stored =
+      Talus::stored_energy(law, task->laws.coefficients(row), state, task->step.dt, to.history);
+  to.set_arms_of_spheres(radius[lane], 0.0);
+  return to;
+}
+
 void BodyBatch::complete_records()
 {
-  const std::size_t before = contacts_for_outputs.size() - filled;
+  const bool listed = task->step.for_outputs->keeps_rows();
   for (int lane = 0; lane < filled; lane++) {
-    ComputedContact &one = contacts_for_outputs[before + lane];
-    ContactReport &to = one.report;
-    to.i = task->candidates.atom(candidate_of_lane[lane]);
-    to.part = part_of(lane);
-    to.center[0] = lane_of(place, lane);
-    to.normal = task->frame.to_space(one.state.normal);
-    to.overlap = one.state.overlap;
-    to.force = lane_of(batch.force, lane);
-    if (law.has_friction()) to.torque_per_radius = lane_of(batch.torque_per_radius, lane);
-    if (law.resists()) to.twisting_torque = lane_of(batch.twisting_torque, lane);
-    if (law.conducts_heat()) to.heat_flow = batch.heat_flow[lane];
-    for (int n = 0; task->with_history && n < 4 * task->history_records; n++)
-      to.history[n] = batch.history[n][lane];
-    to.set_arms_of_spheres(radius[lane], 0.0);
+    if (law.reaches() && !(before_laws[lane].overlap > 0.0)) continue;
+    const ContactReport one = report_of_lane(lane);
+    stored_energy += kept_energy(one);
+    if (listed) contacts_for_outputs.push_back(one);
   }
-  if (!law.reaches()) return;
-  const auto is_gap = [](const ComputedContact &one) { return !(one.report.overlap > 0.0); };
-  contacts_for_outputs.erase(
-      std::remove_if(contacts_for_outputs.begin() + before, contacts_for_outputs.end(), is_gap),
-      contacts_for_outputs.end());
 }
 
 void BodyBatch::record_parts()

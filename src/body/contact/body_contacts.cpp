@@ -142,7 +142,7 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
   if (step.corners) step.corners->clear();
-  if (step.for_outputs) step.for_outputs->begin(laws, step.dt);
+  if (step.for_outputs) step.for_outputs->begin();
   for (const auto &batch : batches) {
     load.add(batch->load);
     if (step.exact) step.exact->add(batch->exact);
@@ -152,7 +152,8 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
       step.corners->swap(batch->corners);    // of the first, or the only one
     else if (step.corners)
       step.corners->insert(step.corners->end(), batch->corners.begin(), batch->corners.end());
-    if (step.for_outputs) step.for_outputs->add(batch->contacts_for_outputs);
+    if (step.for_outputs)
+      step.for_outputs->add(std::move(batch->contacts_for_outputs), batch->stored_energy);
   }
   return load;
 }

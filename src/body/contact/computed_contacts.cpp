@@ -2,6 +2,8 @@
 
 #include "body/contact/computed_contacts.h"
 
+#include <utility>
+
 namespace Talus {
 
 /* Forces are those that the computation has found, energies those of the springs that it has left. */
@@ -15,21 +17,39 @@ ContactReport ComputedContact::with_energy(const LawTable &laws, double dt) cons
   return found;
 }
 
-void ComputedContacts::begin(const std::shared_ptr<const LawTable> &of, double time_step)
+void ComputedContacts::begin()
 {
-  contacts.clear();
-  laws = of;
-  dt = time_step;
+  rows.clear();
+  stored = 0.0;
 }
 
-void ComputedContacts::add(const std::vector<ComputedContact> &more)
+/* Rows are large, and go from hand to hand. */
+
+void ComputedContacts::add(std::vector<ContactReport> &&more, double energy)
 {
-  contacts.insert(contacts.end(), more.begin(), more.end());
+  stored += energy;
+  if (!more.empty()) rows.push_back(std::move(more));
+}
+
+void ComputedContacts::add(const ContactReport &one)
+{
+  stored += kept_energy(one);
+  if (!listed) return;
+  if (rows.empty()) rows.emplace_back();
+  rows.back().push_back(one);
 }
 
 void ComputedContacts::for_each(const VisitContact &visit) const
 {
-  for (const ComputedContact &one : contacts) visit(one.with_energy(*laws, dt));
+  for (const auto &some : rows)
+    for (const ContactReport &one : some) visit(one);
+}
+
+double ComputedContacts::memory_usage() const
+{
+  double sum = 0.0;
+  for (const auto &some : rows) sum += static_cast<double>(some.capacity() * sizeof(ContactReport));
+  return sum;
 }
 
 }    // namespace Talus

@@ -3,10 +3,11 @@
 // Contacts of particles with one large body or wall as the last computation of forces has found
 // them, for outputs. The computation writes them as it goes, in steps in which somebody may ask;
 // asking only reads them. So what is told is what acted, at the positions that were used, whatever
-// has moved since; and it does not matter whether or how often somebody asks.
+// has moved since; and it does not matter whether or how often somebody asks. Where nobody lists
+// contacts only their energy is kept, which outputs of a body have.
 //
 //   a computation of forces   begin(), add()
-//   outputs                   for_each()
+//   outputs                   for_each(), stored_energy()
 
 #ifndef TALUS_BODY_CONTACT_COMPUTED_CONTACTS_H
 #define TALUS_BODY_CONTACT_COMPUTED_CONTACTS_H
@@ -15,17 +16,16 @@
 #include "material/law_table.h"
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace Talus {
 
-/// What a computation leaves of one contact. Stored energies are found from it when somebody asks.
+/// What a computation leaves of one contact of a shape.
 struct ComputedContact {
   ContactReport report;          ///< all but `stored`, and without a number of the body
   ContactState<double> state;    ///< what its law has read
   int row = 0;                   ///< of the table of laws
-  /// Of points of shapes: by these the energies of springs and of the normal law are multiplied.
+  /// By these the energies of springs and of the normal law are multiplied.
   double weight = 1.0, energy = 1.0;
 
   /// The report with `stored`, by the laws and the time step of the computation.
@@ -34,28 +34,35 @@ struct ComputedContact {
 
 class ComputedContacts {
  public:
-  /// Forgets the contacts of the step before. `of`: the laws of those that follow; `time_step`: that
-  /// of their computation.
-  void begin(const std::shared_ptr<const LawTable> &of, double time_step);
-  void forget() { contacts.clear(); }
-  /// Takes the contacts of a thread or chunk behind those that are there.
-  void add(const std::vector<ComputedContact> &more);
-  void add(const ComputedContact &one) { contacts.push_back(one); }
+  /// Before a step: whether somebody lists contacts.
+  void keep_rows(bool are_listed) { listed = are_listed; }
+  bool keeps_rows() const { return listed; }
+  /// Forgets the contacts of the step before.
+  void begin();
+  void forget() { begin(); }
+  /// Takes the contacts of a thread behind those that are there, and what they store.
+  void add(std::vector<ContactReport> &&more, double energy);
+  void add(const ContactReport &one);
 
-  /// visit(contact), in the order in which they were added.
+  /// visit(contact), in the order in which they were added; none if they are not listed.
   using VisitContact = std::function<void(const ContactReport &)>;
   void for_each(const VisitContact &visit) const;
+  /// Of all contacts, listed or not (energy); without that which is lost when they are pulled apart.
+  double stored_energy() const { return stored; }
 
-  double memory_usage() const
-  {
-    return static_cast<double>(contacts.capacity() * sizeof(ComputedContact));
-  }
+  double memory_usage() const;
 
  private:
-  std::vector<ComputedContact> contacts;
-  std::shared_ptr<const LawTable> laws;
-  double dt = 0.0;
+  bool listed = false;
+  std::vector<std::vector<ContactReport>> rows;
+  double stored = 0.0;
 };
+
+/// The part of its stored energy that ComputedContacts::stored_energy() sums.
+inline double kept_energy(const ContactReport &one)
+{
+  return one.stored.normal - one.stored.detaching;
+}
 
 }    // namespace Talus
 

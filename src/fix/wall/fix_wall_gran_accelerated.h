@@ -82,7 +82,7 @@ class AcceleratedWall : public Stock, public SystemFix, private HostWall::Arrays
     }
     place();
     if (wall.list_if_needed(displacement())) are_listed();
-    wall.compute(heat());
+    wall.compute(heat(), this->peratom_flag != 0);
     if (!this->peratom_flag || !system->step().may_be_asked()) return;
     this->clear_stored_contacts();
     wall.for_each_contact([this](const ContactReport &one) { keep_contact(one); });

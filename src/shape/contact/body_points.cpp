@@ -179,7 +179,7 @@ void BodyPoints::record_contacts(const Task &task) const
     to.center[0] = task.view.position(to.i);
     to.arm[0] = frame.point_to_space(point.place) - to.center[0];
     to.torque[0] = cross(to.arm[0], to.force);
-    task.step.for_outputs->add(one);
+    task.step.for_outputs->add(one.with_energy(task.laws, task.step.dt));
   });
 }
 

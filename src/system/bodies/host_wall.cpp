@@ -135,7 +135,7 @@ void HostWall::find_masses()
 /* As in LAMMPS, histories stand still while a run is set up, but what slips is set back; and where there
    may be several contacts none lasts beyond zero overlap. */
 
-void HostWall::compute(const BodyHeat &heat)
+void HostWall::compute(const BodyHeat &heat, bool listed)
 {
   constexpr std::size_t worth_a_thread = 100;    // candidates
   const bool accounts = system.account().is_asked();
@@ -150,6 +150,7 @@ void HostWall::compute(const BodyHeat &heat)
   step.heat = heat;
   step.account = accounts ? &account : nullptr;
   if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
+  for_outputs.keep_rows(listed || system.account().has_observers());
   contacts.compute(*surface, at_rest, system.step().particles(), step);
   if (accounts) system.account().add(account.sum);
 }

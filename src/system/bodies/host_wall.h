@@ -68,8 +68,8 @@ class HostWall : protected LAMMPS_NS::Pointers {
   bool list_if_needed(double displacement);
   /// See BodyContacts, of those that are listed.
   Eigen::AlignedBox3d bounds_of_search() const;
-  /// Adds the forces of a step to the particles.
-  void compute(const BodyHeat &heat);
+  /// Adds the forces of a step to the particles. `listed`: its fix asks for the contacts.
+  void compute(const BodyHeat &heat, bool listed);
 
   /// See SystemFix::for_each_contact().
   void for_each_contact(const ComputedContacts::VisitContact &visit) const

@@ -203,6 +203,7 @@ BodyStep LargeBody::begin_forces(bool advance)
   if (body_surface->records()) step.touched = body_surface->touched();
   if (moved_vertices) step.corners = moved_vertices->touched();
   if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
+  for_outputs.keep_rows(system.account().has_observers());
   step.heat = heat();
   return step;
 }

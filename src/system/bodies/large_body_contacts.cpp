@@ -120,8 +120,7 @@ double LargeBody::energy()
 {
   is_asked = true;
   double here = dissipated + system.account().counted_of_last_step() * last_dissipated, all;
-  for_each_contact(
-      [&](const ContactReport &one) { here += one.stored.normal - one.stored.detaching; });
+  here += for_outputs.stored_energy();
   MPI_Allreduce(&here, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
