@@ -7,8 +7,8 @@ import re
 
 import machine
 
-ORDER = ("single", "dropin", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "shapes", "sizes", "accuracy",
-         "timestep", "stability")
+ORDER = ("single", "dropin", "stages", "bits", "memory", "profile", "scaling", "exchange", "needs", "bodies", "shapes", "sizes", "outputs",
+         "accuracy", "timestep", "stability")
 HEAD = """# Benchmarks
 
 Written by `scripts/bench NAME`; every section says when, where and with which versions, and how to repeat it.
