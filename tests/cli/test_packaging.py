@@ -3,6 +3,7 @@
 """The archive of a release, its version in all places that name it, and the recipes, as far as Python reads them."""
 
 import ast
+import datetime
 import glob
 import os
 import re
@@ -31,11 +32,17 @@ class Packaging(unittest.TestCase):
     def test_version_is_the_same_everywhere(self):
         self.assertIn(f"\n## {VERSION}", read("CHANGELOG.md"))
         self.assertIn(f"\nversion: {VERSION}\n", read("CITATION.cff"))
+        self.assertIn(f"talus_{VERSION}_amd64.deb", read("README.md"))
         self.assertIn(f'version("{VERSION}")', read("packaging", "spack", "packages", "talus", "package.py"))
         self.assertTrue(glob.glob(os.path.join(ROOT, "packaging", "easybuild", f"Talus-{VERSION}-*.eb")))
         self.assertIn(f'\nversion = "{VERSION}"\n', read("python", "pyproject.toml"))
         for name in f"talus_{VERSION}_amd64.deb", f"talus-{VERSION}-x86_64.tar.xz", f"`talus/{VERSION}`":
             self.assertIn(name, read("doc", "install.md"))
+
+    def test_date_is_the_same_everywhere(self):
+        date = re.search(rf"^## {VERSION}, (.*)$", read("CHANGELOG.md"), re.M)[1]
+        cited = re.search(r"^date-released: (.*)$", read("CITATION.cff"), re.M)[1]
+        self.assertEqual(datetime.datetime.strptime(date, "%d %B %Y").date().isoformat(), cited)
 
     def test_recipes_are_python(self):
         tree = ast.parse(read("packaging", "spack", "packages", "talus", "package.py"))
