@@ -37,6 +37,13 @@ SCRIPT_ROWS = {
     "`in.granregion.box`": [script("granregion.box"), script("restitution")],
 }
 
+# rows of README: the same row in a table of doc/figures.md
+README_ROWS = {
+    "a bed of 50 000 spheres": "a bed of 50 000 spheres, gran/hertz/history",
+    "a drum that is a mesh": "29 185 grains in a turning drum that is a mesh",
+    "768 ellipsoids": "768 ellipsoids",
+}
+
 
 def single(case):
     return [("single", None, (case,), column) for column in ("other, ns", "Talus, ns", MEDIAN)]
@@ -54,7 +61,6 @@ def superellipsoids(kind):
 # rows of the table of doc/figures.md: beginning of the bed and of the other code, cells of its time, that of Talus, ratio
 FIGURES_ROWS = [
     ("50 000 spheres", "stock `gran/hertz/history`", single("bed")),
-    ("50 000 spheres, Talus with `run_style verlet/stock`", "the same", single("verlet")),
     ("400 000 spheres", "the same", single("bed400k")),
     ("1 236 372 spheres", "the same", single("bed1236k")),
     ("50 000 spheres", "stock `pair granular`", single("granular")),
@@ -78,13 +84,8 @@ DAMPED = ("hooke damped", "hertz damped", "mixed", "stack", "cluster")
 # sentences: file, words with a group for each number, cells of the report
 NUMBER, RANGE = r"([\d.]*\d)", r"([\d.]*\d) \(([\d.]*\d) to ([\d.]*\d)\)"
 SENTENCES = [
-    ("README.md", f"own styles is {NUMBER} times as fast", single("bed")[2:]),
-    ("README.md", f"{NUMBER} times as fast as with LIGGGHTS", single("liggghts")[2:]),
-    ("README.md", f"one of 400 000 spheres is {NUMBER} times", single("bed400k")[2:]),
-    ("README.md", f"a bed of cubes is {NUMBER} times", [("shapes", CONVEX, ("cubes",), "ratio")]),
-    ("README.md", f"one of ellipsoids {NUMBER} times", superellipsoids("ellipsoids")[2:]),
+    ("README.md", f"own words is {NUMBER} times as fast", single("bed")[2:]),
     ("doc/figures.md", f"two ranks reach {RANGE}", single("ranks")[2:]),
-    ("doc/figures.md", f"independent runs, {RANGE} with overlap", single("overlapped")[2:]),
     ("doc/figures.md", f"two threads {RANGE}", single("threads")[2:]),
     ("doc/figures.md", f"takes {NUMBER} bytes for each, the stock styles {NUMBER}",
      [("memory", "1236372 spheres, whole process", (code,), "bytes per particle")
@@ -137,9 +138,11 @@ class Figures(unittest.TestCase):
         for each, number in zip(texts, value):
             self.assert_rounded(each, number, where)
 
-    def assert_scripts(self, head, rows, where):
-        """Each row is one of SCRIPT_ROWS with its numbers."""
+    def test_scripts(self):
+        """Each row of the table of scripts is one of SCRIPT_ROWS with its numbers."""
+        head, *rows = self.scripts()
         self.assertEqual(head, ["script", "one core", "two ranks"])
+        self.assertEqual(len(rows), len(SCRIPT_ROWS))
         for row in rows:
             with self.subTest(row[0]):
                 cells = next(cells for words, cells in SCRIPT_ROWS.items() if row[0].startswith(words))
@@ -147,18 +150,26 @@ class Figures(unittest.TestCase):
                     shown = row[1 + column].split(", ")
                     self.assertEqual(len(shown), len(cells))
                     for number, pair in zip(shown, cells):
-                        self.assert_rounded(number, reported(*pair[column])[0], f"{where}, {row[0]}")
+                        self.assert_rounded(number, reported(*pair[column])[0], row[0])
 
-    def test_tables_of_scripts(self):
+    def scripts(self):
         figures = read("doc", "figures.md")
-        head, *rows = table(figures[figures.index("### Existing scripts"):])
-        self.assert_scripts(head, rows, "figures.md")
-        self.assertEqual(len(rows), len(SCRIPT_ROWS))
-        one_core = [[float(each) for each in row[1].split(", ")] for row in rows]
-        head, *shown = table(read("README.md"))
-        self.assert_scripts(head, shown, "README")
-        for row in max(zip(one_core, rows))[1], min(zip(map(min, one_core), rows))[1]:    # the best and the least are in it
-            self.assertIn(row, shown)
+        return table(figures[figures.index("### Existing scripts"):])
+
+    def test_first_page(self):
+        """Its numbers are those of doc/figures.md, the most and the least among them."""
+        _, *scripts = self.scripts()
+        _, *beds = table(read("doc", "figures.md"))
+        figures = [(row[0], row[1]) for row in scripts] + [(row[0], row[4].split()[0]) for row in beds]
+        head, *rows = table(read("README.md"))
+        self.assertEqual(head, ["one core", "compared with", "times as fast"])
+        self.assertEqual(len(rows), len(README_ROWS) + 1)
+        for (words, same), row in zip(README_ROWS.items(), rows):
+            self.assertTrue(row[0].startswith(words), row)
+            self.assertEqual(row[2], next(number for what, number in figures if what.startswith(same)))
+        one_core = [float(number) for row in scripts for number in row[1].split(", ")]
+        self.assertTrue(rows[-1][0].startswith("the most and the least of LAMMPS' examples"))
+        self.assertEqual(rows[-1][2], f"{max(one_core)}, {min(one_core)}")
 
     def test_table_of_figures(self):
         head, *rows = table(read("doc", "figures.md"))
