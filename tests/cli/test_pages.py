@@ -68,6 +68,10 @@ class Pages(unittest.TestCase):
         self.assertEqual(sorted(name for name, *_ in scenes), ["crushing", "dice", "drum", "gravel", "hopper", "lentils", "penetration", "settling", "wavetank"])
         for name, number, what in scenes:
             self.assertIn(f" {number} {what}\n", re.search("scripts/run.*\n", read(os.path.join(ROOT, "input", f"in.{name}")))[0])
+        programs = re.findall(r"`(\w+)`", re.search(r"^Coupled programs: .*?\n\n", text, re.M | re.S)[0])
+        self.assertGreater(len(programs), 4)
+        for name in programs:
+            self.assertTrue(glob.glob(os.path.join(ROOT, "examples", "*", f"{name}.py")), name)
 
 
 if __name__ == "__main__":
