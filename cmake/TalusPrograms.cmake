@@ -34,7 +34,7 @@ talus_write_package()
 # it is installed.
 install(FILES src/coupling/talus.h DESTINATION include)
 install(FILES "${PROJECT_BINARY_DIR}/libtalus.so" DESTINATION lib/talus)
-install(FILES python/talus.py DESTINATION lib/talus)
+install(FILES python/talus.py python/talus_precice.py DESTINATION lib/talus)
 set(talus_names PROJECT_SOURCE_DIR PROJECT_VERSION LAMMPS_SOURCE_DIR TALUS_PACKAGE_LIBRARY TALUS_PACKAGE_LIBRARY_FILE
   TALUS_PACKAGE_LIBRARY_DIR TALUS_PACKAGE_SIZES)
 foreach(name IN LISTS talus_names)

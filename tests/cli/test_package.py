@@ -20,7 +20,8 @@ CLEAN = {key: value for key, value in os.environ.items()
          if key not in ("LAMMPS_PLUGIN_PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "PKG_CONFIG_PATH", "TALUS_HOME")}
 BROUGHT = re.compile(r"lib/talus/lib(png16|ccd)\.so\.\d+(\.copyright)?$")
 HELD = ("bin/talus-lmp", "include/talus.h", "lib/talus/lmp", "lib/talus/liblammps.so", "lib/talus/talusplugin.so",
-        "lib/talus/talusstyles.so", "lib/talus/libtalus.so", "lib/talus/talus.py", "lib/talus/talus.env",
+        "lib/talus/talusstyles.so", "lib/talus/libtalus.so", "lib/talus/talus.py", "lib/talus/talus_precice.py",
+        "lib/talus/talus.env",
         "lib/talus/lammps/python/lammps/core.py", "lib/talus/lammps/src/library.h", "share/talus/input/in.drum",
         "share/talus/input/meshes/drum.stl", "share/talus/examples/partner/partner.c", "share/doc/talus/tutorial.md",
         "share/doc/talus/copyright", "share/doc/talus/about/LICENSE")

@@ -282,7 +282,8 @@ class Install(PluginCase):
                         "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
         folder = os.path.join(prefix, "lib", "talus")
         self.assertEqual(sorted(os.listdir(folder)),
-                         ["libtalus.so", "package", "talus.env", "talus.py", "talusplugin.so", *VARIANTS, "talusstyles.so"])
+                         ["libtalus.so", "package", "talus.env", "talus.py", "talus_precice.py", "talusplugin.so", *VARIANTS,
+                          "talusstyles.so"])
         for before, expected in (("", folder), ("/else", folder + ":/else")):
             path = subprocess.run(
                 ["sh", "-c", '. "$1"; printf %s "$LAMMPS_PLUGIN_PATH"', "sh",
