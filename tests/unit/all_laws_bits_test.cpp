@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 using namespace Talus;
@@ -18,6 +19,8 @@ namespace {
 
 constexpr double dt = 2e-5;
 constexpr int width = ContactBatch::width;
+/// Random contacts of each pair of laws.
+const int num_contacts = std::getenv("TALUS_LARGE_TESTS") ? 10000 : 3000;
 using Values = reference::Triple<double>;
 
 Values negated(const Values &v)
@@ -70,7 +73,7 @@ TEST_P(LawBits, DoNotDependOnTheLaneOrTheKindOfKernel)
 
 TEST_P(LawBits, QueriesAgreeWithKernels)
 {
-  for (int n = 0; n < 10000; n++) {
+  for (int n = 0; n < num_contacts; n++) {
     next();
     const int lane = n % width;
     const KernelResult kernel = run(lane, c, n % 2 == 0, false);
@@ -99,7 +102,7 @@ TEST_P(LawBits, KernelsComputeOnlyTheRangeTheyAreGiven)
 // from single stages.
 TEST_P(LawBits, AccountingLeavesThem)
 {
-  for (int n = 0; n < 2000; n++) {
+  for (int n = 0; n < num_contacts / 3; n++) {
     next();
     const int lane = n % width;
     const KernelResult plain = run(lane, c, true, true);
@@ -128,7 +131,7 @@ TEST_P(LawBits, AccountingLeavesThem)
 TEST_P(LawBits, ForceIsReproducedFromTheStoredHistory)
 {
   int sliding = 0, below = 0, fresh = 0;
-  for (int n = 0; n < 10000; n++) {
+  for (int n = 0; n < num_contacts; n++) {
     next();
     const KernelResult before = run(n % width, c, true, true);
     fresh += !c.begun;
@@ -144,17 +147,17 @@ TEST_P(LawBits, ForceIsReproducedFromTheStoredHistory)
     ASSERT_TRUE(same_bits(before, after)) << title(law) << " " << n;
     ASSERT_EQ(begun, law.has_impact() || c.begun) << title(law);
   }
-  EXPECT_GT(fresh, 1000);
+  EXPECT_GT(fresh, num_contacts / 10);
   if (!GetParam().has_history()) return;
-  EXPECT_GT(sliding, 1000);
-  EXPECT_GT(below, 1000);
+  EXPECT_GT(sliding, num_contacts / 10);
+  EXPECT_GT(below, num_contacts / 10);
 }
 
 // Either body may come first: force, twisting torque and displacement change sign, moment and impact stay. (Zeros may differ
 // in sign: no sum notices.)
 TEST_P(LawBits, SwappingTheBodiesNegatesTheForceExactly)
 {
-  for (int n = 0; n < 10000; n++) {
+  for (int n = 0; n < num_contacts; n++) {
     next();
     Contact swapped = c;
     for (int d = 0; d < 3; d++) {

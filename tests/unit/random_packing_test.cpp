@@ -87,7 +87,7 @@ TEST(RandomPacking, goes_beside_what_is_there)
 TEST(RandomPacking, has_the_places_of_its_seed)
 {
   const Cube cube;
-  const std::vector<double> radius = radii_of(30000, 10.0, 0.3);
+  const std::vector<double> radius = radii_of(10000, 10.0, 0.3);
   std::vector<std::vector<Vector3<double>>> all;
   for (const int seed : {1, 1, 2}) {
     RandomNumbers random(seed);
@@ -114,15 +114,12 @@ TEST(RandomPacking, tells_what_it_reached)
 TEST(RandomPacking, work_is_linear)
 {
   constexpr int few = 4000, many = 32000;
-  for (const double fraction : {0.35, 0.5}) {
-    const double equal = work(few, 1.0, fraction);
-    for (const double ratio : {1.0, 10.0, 30.0, 100.0})
-      for (const int count : {few, many}) {
-        if (ratio == 100.0 && count == few) continue;    // the largest does not fit in
-        EXPECT_LT(work(count, ratio, fraction), 1.5 * equal)
-            << count << " " << ratio << " " << fraction;
-      }
-  }
+  const double fraction = 0.5, equal = work(few, 1.0, fraction);
+  for (const double ratio : {1.0, 10.0, 30.0, 100.0})
+    for (const int count : {few, many}) {
+      if (ratio == 100.0 && count == few) continue;    // the largest does not fit in
+      EXPECT_LT(work(count, ratio, fraction), 1.5 * equal) << count << " " << ratio;
+    }
 }
 
 // Spheres of all sizes are everywhere, but for the layer at walls, and touch in all directions.
