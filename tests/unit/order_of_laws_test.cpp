@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -169,13 +170,18 @@ TEST(OrderOfLaws, IsTwo)
         expect_second_order(words_of(normal, mu), scene);
 }
 
+/// Every other combination, so that each two of normal law, adhesion and friction meet; all with TALUS_LARGE_TESTS.
 TEST(OrderOfLaws, IsTwoWithAdhesion)
 {
+  int place = 0;
   for (const char *normal : normal_laws)
-    for (const char *adhesion : {"adhesion constant 3", "adhesion dmt 3", "adhesion perko 3"})
+    for (const char *adhesion : {"adhesion constant 3", "adhesion dmt 3", "adhesion perko 3"}) {
       for (const char *mu : {static_cast<const char *>(nullptr), "0.3"})
-        for (const Scene &scene : {head_on(), oblique(), on_plane(), cluster()})
-          expect_second_order(words_of(normal, mu, adhesion), scene);
+        if (place++ % 2 == 0 || std::getenv("TALUS_LARGE_TESTS"))
+          for (const Scene &scene : {head_on(), oblique(), on_plane(), cluster()})
+            expect_second_order(words_of(normal, mu, adhesion), scene);
+      place++;
+    }
 }
 
 /// Impact speeds that are kept, dampings whose dashpots do not soften as the damping does, friction
