@@ -5,7 +5,7 @@ import json
 import os
 import sys
 
-from talus_testing import SceneCase, head, run_program
+from talus_testing import DEFAULT_TIMEOUT, SceneCase, cores_held, head, run_in_a_process_that_stays, run_program, stays
 
 SOURCE, BUILD = os.environ["TALUS_SOURCE_DIR"], os.environ["TALUS_BINARY_DIR"]
 HOST, HOST_SOURCE = os.environ["TALUS_LAMMPS_BINARY"], os.environ["TALUS_LAMMPS_SOURCE"]
@@ -51,9 +51,19 @@ class CoupledCase(SceneCase):
         """What it prints."""
         return run_program(command[0], np, command[1:], cwd=self.dir, env=host_environment(**(env or {})), **options).output
 
-    def drive(self, program, *words, np=1, **options):
-        """The same of a Python program given as text."""
-        return self.launch([sys.executable, self.write("driver.py", program), *map(str, words)], np, **options)
+    def drive(self, program, *words, np=1, env=None, timeout=DEFAULT_TIMEOUT, stay=True):
+        """The same of a Python program given as text, as one of many in a process in scripts with the word stay in their line
+        "# ctest:"; stay=False: of one that is to fail, or leaves something behind."""
+        name, words = self.write("driver.py", program), list(map(str, words))
+        if not (stay and stays(env)):
+            return self.launch([sys.executable, name, *words], np, env=env, timeout=timeout)
+        threads = int((env or {}).get("OMP_NUM_THREADS", 1))
+        with cores_held(np * threads):
+            job = {"folder": self.dir, "words": words, "program": name}
+            returncode, output = run_in_a_process_that_stays(job, np, threads, timeout)
+        if returncode != 0:
+            raise AssertionError(f"return code {returncode}: {name} {' '.join(words)}\n{output[-3000:]}")
+        return output
 
     def compile(self, name, text, compiler=None):
         """A program in C that is linked with LAMMPS and libtalus.so."""

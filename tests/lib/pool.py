@@ -198,17 +198,17 @@ class Pool:
                     self._give_back(key, process)
         return outcome
 
-    def run_script(self, folder, words, script, ranks=1, threads=1, limit=LIMIT):
-        """An input script of the caller's folder: return code and what was printed, as of a process of its own. The caller holds
-        the cores."""
+    def run_job(self, job, ranks=1, threads=1, limit=LIMIT):
+        """A script or a program of the caller's folder (worker.py): return code and what was printed, as of a process of its own.
+        The caller holds the cores."""
         key = ranks, threads
         process = self._take(key)
         try:
             before = len(process.printed())
-            kind, text = process.make({"folder": folder, "words": words, "script": script}, limit)
+            kind, text = process.make(job, limit)
             printed = process.printed()[before:]
             if kind == HANG:
-                raise AssertionError(f"no end after {limit} s: {script} {' '.join(words)}\n{text}")
+                raise AssertionError(f"no end after {limit} s: {job}\n{text}")
             if kind == CRASH:    # or the command quit
                 return process.process.wait(), printed
             return (1 if kind == ERROR else 0), printed + text

@@ -23,6 +23,7 @@ import time
 import unittest
 
 from granular_script import begin, head
+from lammps_output import Frame, LocalFrame, marked_word, read_dump, read_local, thermo
 
 __all__ = ["Frame", "LocalFrame", "Result", "SceneCase", "Sphere", "begin", "head", "marked_word", "max_difference", "part_of",
            "ranks_of_refusal", "read_dump", "read_local", "relative_difference", "run_lammps", "run_program", "thermo",
@@ -165,13 +166,18 @@ STAY = "TALUS_STAY" in os.environ and not os.environ.get("TALUS_LARGE_TESTS") an
 _pool = []
 
 
-def _run_in_a_process_that_stays(words, script, cwd, np, threads, timeout):
-    """(return code, output); processes are those of this program, and end with it (pool.py)."""
+def stays(env):
+    """Whether runs with these variables are some of many in a process."""
+    return STAY and set(env or {}) <= {"OMP_NUM_THREADS"}
+
+
+def run_in_a_process_that_stays(job, np, threads, timeout):
+    """(return code, output) of a job (worker.py); processes are those of this program, and end with it (pool.py)."""
     if not _pool:
         import pool    # which needs what is here
         _pool.append(pool.Pool())
         atexit.register(_pool[0].__exit__)
-    return _pool[0].run_script(cwd, words, script, np, threads, timeout)
+    return _pool[0].run_job(job, np, threads, timeout)
 
 
 def _crashed_in_finalize(returncode, log, np):
@@ -206,12 +212,13 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     command = shlex.split(MPIEXEC) + ["-np", str(np)] if np > 1 else []
     command += [LMP, "-in", f"in.{name}", *words]
 
-    stays = STAY and stay and set(env or {}) <= {"OMP_NUM_THREADS"}
+    stay = stay and stays(env)
     env = environment(env)
     cores = 1 if expect_error else np * _threads(env)    # the start of several ranks mostly waits, and that is all there is
     with cores_held(cores):
-        if stays:
-            returncode, output = _run_in_a_process_that_stays(words, f"in.{name}", cwd, np, _threads(env), timeout)
+        if stay:
+            job = {"folder": cwd, "words": words, "script": f"in.{name}"}
+            returncode, output = run_in_a_process_that_stays(job, np, _threads(env), timeout)
         else:
             returncode, output = _run_to_end(command, cwd, env, timeout * SLOWER)
     log = ""
@@ -288,115 +295,19 @@ class SceneCase(unittest.TestCase):
 
     def assert_same_bits(self, frame, other, columns=None):
         """Two dump frames hold the same particles with the same bits, signed zeros included."""
-        self.assertTrue(frame.atoms, "no particles to compare")
-        self.assertEqual(sorted(frame.atoms), sorted(other.atoms))
+        self.assertTrue(frame.lines, "no particles to compare")
+        if not columns and frame.columns == other.columns and frame.lines == other.lines:
+            return    # what is written the same is the same
+        self.assertEqual(sorted(frame.tags), sorted(other.tags))
         for key in columns or frame.columns:
-            mine, theirs = frame.column(key), other.column(key)
-            for tag in mine:
-                self.assertEqual(mine[tag].hex(), theirs[tag].hex(), f"{key} of atom {tag}")
+            if frame.words(key) != other.words(key):
+                mine, theirs = frame.column(key), other.column(key)
+                for tag in mine:
+                    self.assertEqual(mine[tag].hex(), theirs[tag].hex(), f"{key} of atom {tag}")
 
     def assert_close(self, value, expected, relative, message=None):
         self.assertLessEqual(relative_difference(value, expected), relative,
                              message or f"{value!r} against {expected!r}")
-
-
-# ---- what LAMMPS writes ----------------------------------------------------------------------
-
-@dataclasses.dataclass
-class Frame:
-    """One frame of a custom text dump: step, column names, {id: tuple of floats}."""
-    step: int
-    columns: list
-    atoms: dict
-    _by_name: dict = dataclasses.field(default_factory=dict, repr=False, compare=False)
-
-    def column(self, name):
-        """{id: number}, not to be changed."""
-        if name not in self._by_name:
-            k = self.columns.index(name)
-            self._by_name[name] = {tag: row[k] for tag, row in self.atoms.items()}
-        return self._by_name[name]
-
-    def largest(self, names):
-        """Absolute number of these columns."""
-        key = tuple(names)
-        if key not in self._by_name:
-            self._by_name[key] = max(abs(value) for name in names for value in self.column(name).values())
-        return self._by_name[key]
-
-
-def _number(word):
-    return float.fromhex(word) if "0x" in word else float(word)
-
-
-def read_dump(path):
-    """Frames of a `dump custom` file that has a column id and only numbers.
-
-    `dump_modify ID format float %.17g` and `%a` both keep every bit."""
-    frames = []
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: TIMESTEP"):
-                frames.append(Frame(int(next(file)), [], {}))
-            elif line.startswith("ITEM: NUMBER OF ATOMS"):
-                count = int(next(file))
-            elif line.startswith("ITEM: ATOMS"):
-                columns = line.split()[2:]
-                tag = columns.index("id")
-                frames[-1].columns = columns
-                for _ in range(count):
-                    row = tuple(map(_number, next(file).split()))
-                    frames[-1].atoms[int(row[tag])] = row
-    return frames
-
-
-@dataclasses.dataclass
-class LocalFrame:
-    """One frame of a local text dump: step, column names, rows (tuples of floats)."""
-    step: int
-    columns: list
-    rows: list
-
-
-def read_local(path):
-    """Frames of a `dump local` file that has only numbers."""
-    frames = []
-    with open(path) as file:
-        for line in file:
-            if line.startswith("ITEM: TIMESTEP"):
-                frames.append(LocalFrame(int(next(file)), [], []))
-            elif line.startswith("ITEM: NUMBER OF"):
-                count = int(next(file))
-            elif line.startswith("ITEM: ENTRIES"):
-                frames[-1].columns = line.split()[2:]
-                frames[-1].rows = [tuple(map(_number, next(file).split())) for _ in range(count)]
-    return frames
-
-
-def thermo(log):
-    """All lines of thermodynamic output in a log text, as a list of {column: float}."""
-    rows, columns = [], None
-    for line in log.splitlines():
-        words = line.split()
-        if words[:1] == ["Step"]:
-            columns = words
-        elif line.startswith("Loop time of"):
-            columns = None
-        elif columns and len(words) == len(columns):
-            try:
-                rows.append(dict(zip(columns, map(float, words))))
-            except ValueError:
-                pass    # a warning between the lines
-    return rows
-
-
-def marked_word(log):
-    """The word of the input line that an error message marks with ^^^^, or None."""
-    lines = log.splitlines()
-    for above, below in zip(lines, lines[1:]):
-        if re.fullmatch(r" *\^+", below):
-            return above[below.index("^"):][:below.count("^")]
-    return None
 
 
 # ---- what LAMMPS reads -----------------------------------------------------------------------

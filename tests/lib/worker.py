@@ -2,7 +2,8 @@
 """One rank of a process that makes one session of LAMMPS after the other; pool.py starts it, and knows when it crashes or hangs.
 
 A session is a file in JSON: its folder, words of the command line, and a script of that folder or lines. Lines are commands of
-LAMMPS, or, with an @ in front, calls of the coupling interface (CALLS). What a session writes stays in its folder."""
+LAMMPS, or, with an @ in front, calls of the coupling interface (CALLS). What a session writes stays in its folder.
+It may be a program in Python of that folder instead, which hosts LAMMPS itself."""
 
 import ctypes
 import json
@@ -10,6 +11,7 @@ import os
 import resource
 import sys
 import time
+import traceback
 
 from lammps import MPIAbortException, lammps
 from talus import Partner
@@ -127,6 +129,23 @@ def make(session, lines):
             session.call(chunk[0], chunk[1:])
 
 
+def run_program(path, words):
+    """As in a process of its own, but that MPI stays."""
+    _count_pair_styles_from_zero()
+    lammps.finalize = lammps.close
+    sys.argv = [path, *words]
+    with open(path) as file:
+        program = compile(file.read(), path, "exec")
+    try:
+        exec(program, {"__name__": "__main__"})
+    except Exception:
+        traceback.print_exc()
+        raise
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+
+
 def attempt(path):
     """Empty, or what went wrong; whether other ranks wait for this one."""
     with open(path) as file:
@@ -134,11 +153,14 @@ def attempt(path):
     os.chdir(job["folder"])
     session, problem, lost = None, "", False
     try:
-        session = Session(job["words"])
-        if "script" in job:
-            session.lmp.file(job["script"])
+        if "program" in job:
+            run_program(job["program"], job["words"])
         else:
-            make(session, job["lines"])
+            session = Session(job["words"])
+            if "script" in job:
+                session.lmp.file(job["script"])
+            else:
+                make(session, job["lines"])
     except MPIAbortException as error:    # other ranks wait for ever
         problem, lost = str(error) or "abort", True
     except Exception as error:

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 cost=15
+# ctest: timeout=300 cost=10 stay
 """A scene that changes between the calls of a partner, between save and restore, and several partners of one instance: each
 ends well, with the right numbers, or in a TalusError, on any number of ranks, and no rank waits for ever."""
 
@@ -264,7 +264,7 @@ class Changes(CoupledCase):
     def test_out_of_step(self):
         """Rank 0 calls one partner and the others another one: all partners end, on all ranks."""
         for np, which in ((2, "advance"), (4, "advance"), (2, "save"), (2, "close"), (2, "open"), (2, "fail")):
-            self.drive(APART, which, np=np, timeout=60)
+            self.drive(APART, which, np=np, timeout=60, stay=False)
             for rank in range(np):
                 with self.subTest(ranks=np, call=which, rank=rank):
                     first, p, q, anew = self.read_json(f"said{rank}")

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 cost=30
+# ctest: timeout=300 cost=15 stay
 """Loads of large bodies between exchanges: the momentum that grains lose is what the body gets, to 1e-12, with every
 integrator and motion, the same bits on 1, 2 and 4 ranks; angular impulses about a point; work; time."""
 

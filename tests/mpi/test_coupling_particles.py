@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: timeout=300 stay
 """Particles of another program's concern, talus.h: forces, torques, drag and heat by ID against analytic results, in the
 records and in the arrays of LAMMPS; the same bits on any ranks and threads; drag impulses and fields that lose nothing;
 errors."""

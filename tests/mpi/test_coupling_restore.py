@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=400
+# ctest: timeout=400 stay
 """talus_restore(): what a partner has told and is owed comes back as well; outputs of steps that are repeated; commands in
 between; what is refused; fixed point iteration on it."""
 
@@ -282,7 +282,7 @@ class Restore(CoupledCase):
         for scene in "scene", "bare":
             if scene == "bare":
                 self.write("scene", start() + pair() + MOVE + walls())
-            self.drive(ERRORS, np=2)
+            self.drive(ERRORS, np=2, stay=False)
             nothing, added, deleted, anew, bricks, other, sizes, root = self.read_json("said")
             self.assertEqual(nothing, "talus_restore: snapshot is NULL")
             self.assertEqual(added, "talus_restore: fix more (viscous) has been added since the snapshot was made")
@@ -296,7 +296,7 @@ class Restore(CoupledCase):
     def test_memory(self):
         if os.environ.get("TALUS_SANITIZE"):    # they need more address space than the test leaves
             return
-        self.drive(MEMORY)
+        self.drive(MEMORY, stay=False)
         self.assertEqual(self.read_json("said"), "talus_save: some rank has not enough memory for another snapshot: discard others, "
                          "or use more machines")
 

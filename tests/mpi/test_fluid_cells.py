@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=10 timeout=300 stay
 """Grains in a fluid of a partner, talus.h: what they are on cells of a grid or any points, and back to them by the same shares;
 nothing is lost, and bits are the same on any ranks with any owners of cells; errors."""
 

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=200
+# ctest: timeout=200 stay
 """Heat from a fluid to grains, talus.h: laws of Gunn and of Ranz and Marshall against their formulas, on one and two ranks; the
 grains' temperatures after steps; a closed box, whose heat stays; errors."""
 

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=200
+# ctest: timeout=200 stay
 """Grains ten times lighter than the fluid: a partner that takes the pressure gradient of the last interval fails, one that repeats
 each interval by save and restore (FixedPoint) finds the exact motion; and a fluid much lighter than the grains that it drags, which
 is stable if it takes the coefficients of put() implicitly."""

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=200
+# ctest: timeout=200 stay
 """Drag on particles with a shape by the law hoelzer/sommerfeld: sphericities of boxes, ellipsoids and spheres, as they are turned,
 against closed forms; on one and two ranks."""
 
