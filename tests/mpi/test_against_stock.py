@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=75 timeout=300
+# ctest: cost=30 timeout=300
 """gran/penalty against the stock granular styles with the same law, particle by particle.
 
 Both run the same script with fix nve/sphere from the same data file, on 1, 2 and 4 ranks."""
@@ -190,7 +190,7 @@ class AgainstStock(SceneCase):
         print(f"\n{'relative difference from stock':52}", *(f"{w:>8}" for w in [*VECTORS, "virial"]))
         for law, (theirs, ours) in part_of(LAWS.items(), 1):
             reference = self.scene("stock " + law, stock(theirs), 1, 20)
-            for np in RANKS:
+            for np in RANKS if law == "hooke multistep" else RANKS[::2]:
                 run = self.scene(law, talus(ours), np, 20)
                 for step, limit in ((0, 1e-12), (20, 1e-11)):
                     found = differences(run, reference, step)
@@ -251,7 +251,7 @@ class AgainstStock(SceneCase):
         write_sphere_data(self.path("grains"), ((0, 20), (0, 10), (0, 10)), grains())
         print(f"\n{'positions after 1000 steps':28}{'on 1':>9}{'on 2':>9}{'on 4 ranks':>11}"
               f"{'stock 1-2':>11}   collisions  rebuilds  crossings")
-        for law, (theirs, ours) in part_of(list(LAWS.items())[:5], 2):
+        for law, (theirs, ours) in part_of(list(LAWS.items())[:5], 2, 2):
             reference = self.scene("stock " + law, stock(theirs), 1, STEPS)
             own = distance(self.scene("stock " + law, stock(theirs), 2, STEPS), reference)
             runs = [self.scene(law, talus(ours), np, STEPS, CONTACTS if np == 1 else "")
@@ -276,7 +276,7 @@ class AgainstStock(SceneCase):
         script, n = re.subn(r"(?m)^pair_style.*\npair_coeff.*$", talus(
             "hooke 200000.0 50.0 tangential multistep NULL 0 0.5"), script)
         self.assertEqual(n, 1)
-        for np in RANKS:
+        for np in RANKS[::2]:
             row = thermo(self.run_lammps(script, np=np).log)[-1]
             print(f"chute on {np} ranks, step {row['Step']:.0f}: {row['KinEng']} {row['c_1']}")
             self.assertEqual((row["Step"], row["KinEng"], row["c_1"]), (100, 784292.08, 1571.0968))
