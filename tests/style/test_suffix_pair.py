@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=35 timeout=300
+# ctest: cost=20 timeout=300 stay
 """Pair styles gran/* with the suffix talus against the stock styles: the same script, with and without -sf talus."""
 
 import itertools
@@ -82,7 +82,7 @@ class Case(SceneCase):
     def scene(self, spheres, box, types=None):
         write_sphere_data(self.path("data"), box, spheres, types)
 
-    def one(self, suffix, name, np=1, threads=1, **options):
+    def one(self, suffix, name, np=1, threads=1, stay=True, **options):
         settings = dict(units="lj", dimension=3, boundary="f f f", newton="on", processors="", before="",
                         disc="", more="", every=1, run="run 1", data=self.path("data"), pair="", local=True)
         settings.update(options)
@@ -93,7 +93,7 @@ class Case(SceneCase):
         text = SCRIPT.format(**settings)
         text = text.replace("state.*", "state").replace("local.*", "local")
         return self.run_lammps(text, np=np, cwd=cwd, arguments=["-sf", "talus"] if suffix else [],
-                               env={"OMP_NUM_THREADS": threads})
+                               env={"OMP_NUM_THREADS": threads}, stay=stay)
 
     def assert_equal_states(self, one, other, tolerance, columns=None):
         frames, others = (read_dump(self.path(f"{n}/state")) for n in (one, other))
@@ -101,11 +101,9 @@ class Case(SceneCase):
         for a, b in zip(frames, others):
             self.assertEqual(a.step, b.step)
             for column in columns or a.columns[1:]:
-                largest = max(map(abs, a.column(column).values()))
-                group = [c for c in a.columns if c[:2] == column[:2]]
-                scale = max(max(map(abs, a.column(c).values())) for c in group)
+                scale = a.largest(c for c in a.columns if c[:2] == column[:2])
                 self.assertLessEqual(max_difference(a, b, [column]), tolerance * max(scale, 1e-300),
-                                     f"{column} at step {a.step}, largest {largest}")
+                                     f"{column} at step {a.step}, largest {a.largest([column])}")
 
     def assert_equal_thermo(self, one, other, tolerance):
         for a, b in zip(thermo(one.log), thermo(other.log)):
@@ -336,7 +334,7 @@ run 40
     def continued(self, name, suffix, file, np):
         os.makedirs(self.path(name))
         return self.run_lammps(self.CONTINUE.format(file=file), np=np, cwd=self.path(name),
-                               arguments=["-sf", "talus"] if suffix else [])
+                               arguments=["-sf", "talus"] if suffix else [], stay=False)
 
     @mock.patch.dict(os.environ, MALLOC_PERTURB_="0")    # stock reads limit_damping unset behind read_restart
     def test_crossing(self):
@@ -346,7 +344,7 @@ run 40
             for np in 1, 2:
                 with self.subTest(style=style, np=np):
                     options = dict(pair=f"pair_style {STYLES[style]}\npair_coeff * *", boundary=boundary, local=False,
-                                   every=20, run="run 40\nwrite_restart restart\nrun 40")
+                                   every=20, run="run 40\nwrite_restart restart\nrun 40", stay=False)
                     tag = f"-{style.replace('/', '-')}-{np}"
                     self.one(False, "stock" + tag, np, **options)
                     self.one(True, "ours" + tag, 3 - np, **options)
@@ -375,11 +373,11 @@ run 40
                 with self.subTest(style=style, np=np):
                     name = f"{style.replace('/', '-')}-{np}"
                     self.one(True, "written-" + name, np, pair=f"pair_style {STYLES[style]}\npair_coeff * *", boundary="s s s",
-                             local=False, every=20, run="run 40\nwrite_restart restart")
+                             local=False, every=20, run="run 40\nwrite_restart restart", stay=False)
                     script = self.CONTINUE.format(file=self.path(f"written-{name}/restart"))
                     os.makedirs(self.path(name))
                     self.run_lammps(script.replace("20 state", "20 first") + "clear\n" + script, np=np, cwd=self.path(name),
-                                    arguments=["-sf", "talus"])
+                                    arguments=["-sf", "talus"], stay=False)
                     for first, again in zip(read_dump(self.path(f"{name}/first")), read_dump(self.path(f"{name}/state"))):
                         self.assertEqual(max_difference(first, again, columns), 0.0)
 
