@@ -7,22 +7,23 @@ import random
 
 
 def write_bonded_data(path, box, spheres, bonds, bond_types=1):
-    """spheres: (x, v, omega, diameter, density); bonds: (type, i, j) with IDs from 1, the places in spheres."""
     with open(path, "w") as file:
-        file.write(f"Talus test\n\n{len(spheres)} atoms\n1 atom types\n{len(bonds)} bonds\n{bond_types} bond types\n"
-                   "20 extra bond per atom\n40 extra special per atom\n")
-        for axis, (low, high) in zip("xyz", box):
-            file.write(f"{low!r} {high!r} {axis}lo {axis}hi\n")
-        file.write("\nAtoms # bpm/sphere\n\n")
-        for n, (x, _, _, diameter, density) in enumerate(spheres, start=1):
-            file.write(f"{n} 1 1 {diameter!r} {density!r} " + " ".join(map(repr, x)) + "\n")
-        file.write("\nVelocities\n\n")
-        for n, (_, v, omega, _, _) in enumerate(spheres, start=1):
-            file.write(f"{n} " + " ".join(repr(float(c)) for c in (*v, *omega)) + "\n")
-        if bonds:
-            file.write("\nBonds\n\n")
-        for n, bond in enumerate(bonds, start=1):
-            file.write(f"{n} " + " ".join(map(str, bond)) + "\n")
+        file.write(bonded_data(box, spheres, bonds, bond_types))
+
+
+def bonded_data(box, spheres, bonds, bond_types=1):
+    """spheres: (x, v, omega, diameter, density); bonds: (type, i, j) with IDs from 1, the places in spheres."""
+    rows = ["Talus test", "", f"{len(spheres)} atoms", "1 atom types", f"{len(bonds)} bonds", f"{bond_types} bond types",
+            "20 extra bond per atom", "40 extra special per atom"]
+    rows += [f"{low!r} {high!r} {axis}lo {axis}hi" for axis, (low, high) in zip("xyz", box)]
+    rows += ["", "Atoms # bpm/sphere", ""]
+    rows += [f"{n} 1 1 {diameter!r} {density!r} " + " ".join(map(repr, x)) for n, (x, _, _, diameter, density) in enumerate(spheres, 1)]
+    rows += ["", "Velocities", ""]
+    rows += [f"{n} " + " ".join(repr(float(c)) for c in (*v, *omega)) for n, (_, v, omega, _, _) in enumerate(spheres, 1)]
+    if bonds:
+        rows += ["", "Bonds", ""]
+    rows += [f"{n} " + " ".join(map(str, bond)) for n, bond in enumerate(bonds, 1)]
+    return "\n".join(rows) + "\n"
 
 
 def crystal(cells, spacing, origin=(0.0, 0.0, 0.0), jitter=0.05, velocity=(0.0, 0.0, 0.0), seed=1, spin=0.3):

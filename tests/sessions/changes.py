@@ -4,6 +4,7 @@
 import re
 
 import bodies
+import bonds
 import laws
 from mutation import CRASHES
 from pool import CRASH, ERROR, HANG
@@ -98,7 +99,7 @@ def lifecycle(rng, scene):
     """Half of the scenes go on after a command or two."""
     program = list(scene.program)
     while rng.random() < 0.5 and len(program) < 6:
-        made = rng.choice(COMMANDS)(rng, scene)
+        made = rng.choice(COMMANDS + 2 * OF_BONDS if "bonded" in scene.traits else COMMANDS)(rng, scene)
         if made:
             program += [*made, ("run", rng.choice((5, 15, 30)))]
     gone = _gone(program)
@@ -111,7 +112,8 @@ def _plain(scene):
 
 def delete(rng, scene):
     gone = rng.sample(range(1, len(scene.grains) + 1), max(1, len(scene.grains) // 4))
-    return [line("group gone id", *gone), line("delete_atoms group gone compress no"), line("group gone delete")]
+    more = "bond yes" if "bonded" in scene.traits and rng.random() < 0.8 else ""
+    return [line("group gone id", *gone), line("delete_atoms group gone compress no", more.split()), line("group gone delete")]
 
 
 def create(rng, scene):
@@ -180,4 +182,34 @@ def settings(rng, scene):
                              "thermo 3", "set group all omega 0 0 0")))]
 
 
-COMMANDS = delete, create, pour, body_gone, faster, displace, another_step, another_law, body_more, drag, partner, settings, settings
+def another_box(rng, scene):
+    k = rng.choice("xyz")
+    how = rng.choice((line("scale", f"{rng.uniform(0.98, 1.02):.4g}", "remap"), line("delta", length(-0.1), length(0.2))))
+    return [line("change_box all", k, how, "units box")]
+
+
+def bonds_more(rng, scene):
+    """Between two that have none, if it is known which."""
+    if "bonded" not in scene.traits or not scene.bonds:
+        return []
+    there = {(i, j) for _, i, j in scene.bonds}
+    free = [pair for pair in bonds.near(scene) if pair not in there]
+    return [line("create_bonds single/bond", rng.randint(1, 2), rng.choice(free))] if free else []
+
+
+def bonds_gone(rng, scene):
+    if "bonded" not in scene.traits:
+        return []
+    return [line("group few id", *rng.sample(range(1, len(scene.grains) + 1), 3)), line("delete_bonds few multi remove special"),
+            line("group few delete")]
+
+
+def other_bonds(rng, scene):
+    if "bonded" not in scene.traits:
+        return []
+    return [bonds.coefficients(rng, rng.randint(1, 2))]
+
+
+COMMANDS = (delete, create, pour, body_gone, faster, displace, another_step, another_law, another_box, body_more, drag, partner, settings,
+            settings)
+OF_BONDS = bonds_more, bonds_gone, other_bonds

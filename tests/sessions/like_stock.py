@@ -10,19 +10,20 @@ from pool import OK, Session
 STEPS = 6
 SEGMENTS = 4
 POSITION, RELATIVE = 1e-11, 1e-8    # of a diameter; of the largest value of a column
+OF_BONDS = 1e-8, 2e-6               # the same where angles of LAMMPS are rounded to 1e-8
 
 
 def draw(rng):
     while True:
-        scene = scenes.any_scene(rng, (scenes.of_the_host,))
-        if "wiggle" not in scene.traits:    # LAMMPS begins its time anew after a restart
+        scene = scenes.any_scene(rng, (scenes.of_the_host, scenes.of_the_host, scenes.bonded))
+        if "host" in scene.traits and "wiggle" not in scene.traits:    # LAMMPS begins its time anew after a restart
             scene = scene.but(program=(("run", rng.choice((1, STEPS))),))
             return scene, 1 if segments(scene) == 1 else rng.choice((1, 1, 1, 2))
 
 
 def segments(scene):
-    """Signs of what rolling and twisting remember are neither in files of LAMMPS nor right on several ranks of it, so that these go on
-    from the beginning only, on one rank."""
+    """How often. Signs of what rolling and twisting remember are neither in files of LAMMPS nor right on several ranks of it, so that
+    these go on from the beginning only, on one rank."""
     pair = " ".join(words for words in scene.physical() if words.startswith("pair_coeff"))
     return 1 if "rolling" in pair or "twisting" in pair else SEGMENTS
 
@@ -41,15 +42,19 @@ def accelerated(scene, ranks, n, restarts):
     else:
         start = [words for words in scene.beginning()[:len(scene.start)] if not words.startswith(("boundary", "fix"))]
         begin = [*start, *changes.read_restart(scene, f"half.{n - 1}")]
-    lines = [*begin, *scene.physical(), *scene.steps(), *scene.seen(str(n))]
+    lines = [*begin, *scene.physical(again=n > 0), *scene.steps(), *scene.seen(str(n))]
     return Session(lines, ranks, words=scene.words, files={**scene.files(), **restarts})
+
+
+def limits(scene):
+    return OF_BONDS if scene.once else (POSITION, RELATIVE)
 
 
 def _is_that_of_one_rank(run, scene, ranks, seen):
     """LAMMPS loses histories where particles change ranks, also in its restart files; where it has none to lose it is right."""
     alone, lines = run(stock(scene, 1)), stock(scene, ranks).lines
     through = run(Session(lines, ranks, words=scene.words, files=scene.files()))
-    return alone.kind == through.kind == OK and not compare(alone.seen[seen], through.seen[seen], POSITION, RELATIVE)
+    return alone.kind == through.kind == OK and not compare(alone.seen[seen], through.seen[seen], *limits(scene))
 
 
 def check(run, scene, ranks):
@@ -62,7 +67,7 @@ def check(run, scene, ranks):
         found = run(talus)
         if found.kind != OK:
             return changes.fault_of_failure(found) or f"refused: {found.text}", [plain, talus]
-        difference = compare(expected.seen[f"seen.{n}"], found.seen[f"seen.{n}"], POSITION, RELATIVE)
+        difference = compare(expected.seen[f"seen.{n}"], found.seen[f"seen.{n}"], *limits(scene))
         if difference and not (ranks > 1 and _is_that_of_one_rank(run, scene, ranks, f"seen.{n}")):
             return f"differs from stock: segment {n}: {difference}", [plain, talus]
     return "", [plain, talus]

@@ -48,8 +48,19 @@ unfix more|atom_modify sort 1 0.5|atom_modify sort 0 0|info all out log|fix turn
 fix turn all deform 1 y erate 0.1 remap v|fix turn all deform 1 z final -3 9 remap none|fix press all press/berendsen iso 1 2 1|unfix press
 set group all temperature 2|compute warmth all property/atom temperature;dump warm all custom 2 warm id c_warmth
 minimize 1e-4 1e-4 3 3
+fix press all deform/pressure 1 x pressure 5 0.1 max/rate 1 remap v|fix turn all deform 1 xy erate 0.3 remap v|change_box all x scale 0.99 remap
 @advance 4|@save s|@restore s|@discard s|@set_up|@put_forces 1 0 0 3|@close|@watch b0;@advance 2;@load b0|@put_drag 1 0.3 0 0 1
 @other;@other_forces 2 0 0 1|@other_close""".replace("\n", "|").split("|")
+OF_BONDS = """create_bonds single/bond 1 1 2|create_bonds single/bond 2 1 3;run 5 pre no|create_bonds many all all 1 0 1.0
+special_bonds lj 0 1 1 coul 0 1 1;create_bonds many all all 1 0 1.0;special_bonds lj 0 1 1 coul 1 1 1|bond_coeff 1 1e3 1e3 50 50 9 9 9 9 0 0 0 0
+delete_bonds all bond 1 remove|delete_bonds some multi remove special|delete_bonds all multi|delete_bonds some bond 2 any
+delete_atoms group some bond yes|delete_atoms group some bond yes compress no|bond_style none|BONDS|special_bonds lj 1 1 1 coul 1 1 1
+special_bonds lj 0 0 0|bond_style bpm/rotational overlay/pair yes|fix move all nve/bpm/sphere|unfix step;fix step all nve/bpm/sphere
+bond_style hybrid bpm/rotational harmonic|set group some quat/random 5|set group some bond 2|compute ties all nbond/atom;dump ties all custom 2 ties id c_ties
+compute part all fragment/atom single yes;dump part all custom 3 part id c_part|compute long all bond/local dist engpot force
+compute long all bond/local dist;dump long all local 2 long index c_long|fix snap all bond/break 2 1 1.02|fix glue all bond/create 3 1 1 1.1 1
+DATA|DATA;run 3|reset_atoms id;run 4|reset_atoms mol|write_data session.data nocoeff|compute sum all penalty/stats;thermo_style custom step c_sum[1] ebond
+write_restart session;run 3|set type 1 density 3;run 3|displace_atoms some random 0.3 0.3 0.3 5;run 6""".replace("\n", "|").split("|")
 
 
 def draw(rng):
@@ -101,13 +112,17 @@ def sequence(rng):
     scene = scenes.any_scene(rng)
     again = [*scene.beginning(), *scene.physical()]
     start = [text(words) for words in scene.start if not text(words).startswith(("boundary", "fix"))]
+    boundary, = (text(words) for words in scene.start if words[0] == "boundary")
     pair = [text(words) for words in scene.physics if str(words[0]).startswith("pair_")]
     places = {"AGAIN": again, "PAIR": pair,
-              "RESTART": ["write_restart half", "clear", *start, *changes.read_restart(scene, "half"), *scene.physical()]}
+              "RESTART": ["write_restart half", "clear", *start, *changes.read_restart(scene, "half"), *scene.physical(again=True)],
+              "BONDS": [text(words) for words in scene.once if "create_bonds" not in words],
+              "DATA": ["write_data half.data nocoeff", "clear", *start, boundary,
+                       "read_data half.data extra/bond/per/atom 9 extra/special/per/atom 40", *scene.physical()]}
     lines, wanted = [*again, f"run {rng.choice((0, 3, 8))}"], rng.randint(2, 12)
     there = Names(lines)
     while wanted:
-        parts = rng.choice(OPERATIONS).split(";")
+        parts = rng.choice(OF_BONDS if scene.once and rng.random() < 0.4 else OPERATIONS).split(";")
         if there.allow(parts) or (rng.random() < 0.01 and not there.new_dump):
             more = [line for part in parts for line in places.get(part, [part])]
             there.follow(more)
@@ -157,7 +172,7 @@ class Damaged(Session):
 def restart(rng):
     scene = scenes.any_scene(rng)
     start = [text(words) for words in scene.start if not text(words).startswith(("boundary", "fix"))]
-    session = Damaged([*start, *changes.read_restart(scene, "half"), *scene.physical(), "run 2"], 1, 1, scene.words, scene.files())
+    session = Damaged([*start, *changes.read_restart(scene, "half"), *scene.physical(again=True), "run 2"], 1, 1, scene.words, scene.files())
     session.writer = Session([*scene.beginning(), *scene.physical(), "run 12", "write_restart half"], words=scene.words,
                              files=scene.files(), keep=("half",))
     session.flips = tuple((rng.random(), rng.randrange(8)) for _ in range(rng.choice((1, 1, 2))))

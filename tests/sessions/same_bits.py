@@ -22,7 +22,7 @@ class Plan:
     beginning: list = dataclasses.field(default_factory=list)    # after the start: settings
     before_run: list = dataclasses.field(default_factory=list)
     program: list = dataclasses.field(default_factory=list)
-    resume: tuple = ()    # (steps, ranks) that another process makes first
+    resume: tuple = ()    # (place in the program, ranks) of what another process makes first
 
     def session(self):
         """Of all that is made in one process."""
@@ -38,18 +38,17 @@ class Plan:
     def again(self):
         """From a restart file up to the run."""
         start = [text(words) for words in self.scene.start if not text(words).startswith(("boundary", "fix"))]
-        return [*start, *self.settings(), *changes.read_restart(self.scene, "half"), *self.scene.physical(), *self.before_run]
+        return [*start, *self.settings(), *changes.read_restart(self.scene, "half"), *self.scene.physical(again=True),
+                *self.before_run]
 
     def sessions(self):
         """One, or two if another process makes the beginning."""
         if not self.resume:
             return [self.session()]
-        n, steps = _first_run(self)
-        first, ranks = self.resume
-        program = self.program
-        writer = dataclasses.replace(self, ranks=ranks, grid="", program=[*program[:n], f"run {first}", "write_restart half"]).session()
+        place, ranks = self.resume
+        writer = dataclasses.replace(self, ranks=ranks, grid="", program=[*self.program[:place], "write_restart half"]).session()
         writer.keep = ("half",)
-        reader = Session([*self.again(), f"run {steps - first}", *program[n + 1:], *self.scene.seen("end")], self.ranks, self.threads,
+        reader = Session([*self.again(), *self.program[place:], *self.scene.seen("end")], self.ranks, self.threads,
                          self.scene.words, self.scene.files())
         return [writer, reader]
 
@@ -76,7 +75,7 @@ def sorting(rng, plan):
 
 
 def newton(rng, plan):
-    if "host" not in plan.scene.traits:
+    if not plan.scene.traits & {"host", "bonded"}:
         plan.beginning.append("newton on")
 
 
@@ -127,7 +126,27 @@ def restart_elsewhere(rng, plan):
     """Another process with another number of ranks makes the beginning."""
     n, steps = _first_run(plan)
     if steps > 1:
-        plan.resume = rng.randint(1, steps - 1), rng.choice((1, 1, 2))
+        first = rng.randint(1, steps - 1)
+        plan.program[n:n + 1] = [f"run {first}", f"run {steps - first}"]
+        plan.resume = n + 1, rng.choice((1, 1, 2))
+
+
+def _pause(plan):
+    """Place of the second of two runs that follow each other."""
+    n, _ = _first_run(plan)
+    return n + 1 if n is not None and plan.program[n + 1:n + 2] and plan.program[n + 1].startswith("run ") else None
+
+
+def restart_in_pause(rng, plan):
+    n = _pause(plan)
+    if n:
+        plan.program[n:n] = ["write_restart half", "clear", *plan.again()]
+
+
+def restart_in_pause_elsewhere(rng, plan):
+    n = _pause(plan)
+    if n:
+        plan.resume = n, rng.choice((1, 1, 2))
 
 
 def save_and_restore(rng, plan):
@@ -149,15 +168,35 @@ def windows(rng, plan):
 
 SETTINGS = ranks, ranks, threads, sorting, newton, exchange, outputs, outputs
 PROGRAMS = save_and_restore, windows, division, restart, restart_elsewhere    # one of them at most, behind the settings
+IN_PAUSE = restart_in_pause, restart_in_pause_elsewhere    # for scenes of two runs, which may not be one
+AMONG_SUMS = exchange, outputs, outputs                    # where sums with rounding decide on the motion
+
+
+def with_pause(rng, scene):
+    """Its first run in two."""
+    n, words = next((n, words) for n, words in enumerate(scene.program) if words[0] == "run")
+    first = rng.randint(1, words[1] - 1)
+    return scene.but(program=(*scene.program[:n], ("run", first), ("run", words[1] - first), *scene.program[n + 1:]))
+
+
+def programs_of(scene):
+    """fix deform looks at the length of a run. fix nve/sphere and nve/bpm/sphere end a step with forces that a set-up has not; wiggle
+    begins its time anew and fix rigid its bodies where a file is read; histories of bonds are not saved in memory."""
+    if "deform" in scene.traits:
+        return ()
+    if not scene.traits & {"host", "bonded"}:
+        return PROGRAMS[:2] if "periodic" in scene.traits else PROGRAMS
+    again = () if scene.traits & {"wiggle", "clumps"} else IN_PAUSE
+    return PROGRAMS[1 if "bonded" in scene.traits else 0:2] + again
 
 
 def draw(rng):
     """A scene, and names of variations with their seeds."""
     scene = changes.lifecycle(rng, scenes.any_scene(rng))
-    periodic = "periodic" in scene.traits
-    divisible = not periodic and "host" not in scene.traits    # fix nve/sphere ends a step with forces that a set-up has not
-    programs = () if "deform" in scene.traits else PROGRAMS if divisible else PROGRAMS[:2]    # fix deform looks at the length of a run
-    settings = SETTINGS if periodic else (*SETTINGS, neighbors)
+    programs = programs_of(scene)
+    if restart_in_pause in programs:
+        scene = with_pause(rng, scene)
+    settings = AMONG_SUMS if "pressure" in scene.traits else SETTINGS if "periodic" in scene.traits else (*SETTINGS, neighbors)
     chosen = list(dict.fromkeys(rng.choices(settings, k=rng.choice((0, 1, 1, 2, 3)))))
     if programs and (not chosen or rng.random() < 0.4):
         chosen.append(rng.choice(programs))

@@ -3,10 +3,12 @@
 
 import dataclasses
 
+from bonded_grains import bonded_data
 from mutation import text_stl
 from quantities import Quantity, line, text
 
 COLUMNS = ("type", "radius", "x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz", "fx", "fy", "fz", "tqx", "tqy", "tqz")
+DATA, BOND_TYPES = "grains.data", 2
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,7 +46,8 @@ class Mesh:
 @dataclasses.dataclass(frozen=True)
 class Scene:
     """start: lines up to the box; box: lines that make it; physics: what is given again after read_restart; program: what happens
-    then, ("run", steps) or commands.
+    then, ("run", steps) or commands; bonds: (type, i, j) with i, j from 1, the places in grains; once: lines behind the physics that
+    are not given again, since restart files have what they say.
 
     columns: more values of each particle; vectors: (fix, length), told at the end; traits: words on which relations depend; words: of
     the command line."""
@@ -58,20 +61,39 @@ class Scene:
     vectors: tuple = ()
     traits: frozenset = frozenset()
     words: tuple = ()
+    bonds: tuple = ()
+    once: tuple = ()
 
     def but(self, **changes):
         return dataclasses.replace(self, **changes)
 
     def files(self):
-        return {mesh.name: text_stl(mesh.triangles) for mesh in self.meshes}
+        found = {mesh.name: text_stl(mesh.triangles) for mesh in self.meshes}
+        return {**found, DATA: self._data().encode()} if "read" in self.traits else found
 
     def beginning(self):
         """Lines up to the physics."""
-        grains = [words for tag, grain in enumerate(self.grains, start=1) for words in grain.lines(tag)]
-        return [text(words) for words in (*self.start, *self.box, *grains)]
+        if "read" in self.traits:
+            return [text(words) for words in (*self.start, line("read_data", DATA))]
+        made = [words for tag, grain in enumerate(self.grains, start=1) for words in grain.lines(tag)]
+        last = len(self.bonds) - 1
+        made += [line("create_bonds single/bond", bond, "special", "yes" if n == last else "no") for n, bond in enumerate(self.bonds)]
+        return [text(words) for words in (*self.start, *self.box, *made)]
 
-    def physical(self):
-        return [text(words) for words in self.physics]
+    def edges(self):
+        """Of the box: (low, high) along x, y, z."""
+        values = [word.values[0] for word in self.box[0] if isinstance(word, Quantity)]
+        return tuple(zip(values[::2], values[1::2]))
+
+    def _data(self):
+        spheres = [(grain.place.values, grain.velocity.values, grain.spin.values, grain.diameter.values[0], grain.density.values[0])
+                   for grain in self.grains]
+        return bonded_data(self.edges(), spheres, self.bonds, BOND_TYPES)
+
+    def physical(self, again=False):
+        """again: behind read_restart."""
+        kept = [words for words in self.once if not again or "again" in self.traits and str(words[0]).startswith("bond_")]
+        return [text(words) for words in (*self.physics, *kept)]
 
     def seen(self, name):
         """Commands that write the present state."""
@@ -94,7 +116,7 @@ class Scene:
         def one_line(words):
             return tuple(change.of(word) if isinstance(word, Quantity) else word for word in words)
 
-        lines = {name: tuple(map(one_line, getattr(self, name))) for name in ("start", "box", "physics", "program")}
+        lines = {name: tuple(map(one_line, getattr(self, name))) for name in ("start", "box", "physics", "once", "program")}
         return self.but(**lines, grains=tuple(map(grain, self.grains)), meshes=tuple(mesh.changed(change) for mesh in self.meshes))
 
 

@@ -4,12 +4,15 @@
 import math
 
 import bodies
+import bonds
 import laws
+from driven import driven
 from quantities import Rounding, along, direction, duration, length, line, number, place, rotated, spin, text, turned, velocity
 from scene import Grain, Scene
 
 STEP = 5e-4
 START = ("units lj", "atom_style sphere", "atom_modify map yes", "newton off", "comm_modify vel yes")
+START_OF_BONDS = (START[0], "atom_style bpm/sphere", *START[2:4], line("comm_modify vel yes cutoff", length(2.5)))
 
 
 # ---- grains -------------------------------------------------------------------------------------
@@ -95,8 +98,8 @@ MEMBERS_APART = line("neigh_modify exclude molecule/intra all"), line("compute_m
 
 # ---- kinds of scenes ----------------------------------------------------------------------------
 
-def begin(rng, boundary):
-    return tuple(line(words) for words in START) + (line("boundary", boundary),)
+def begin(rng, boundary, start=START):
+    return tuple(line(words) for words in start) + (line("boundary", boundary),)
 
 
 def neighbors(rng, skins=(0.05, 0.1, 0.3)):
@@ -134,11 +137,6 @@ def spheres(rng, periodic=False, moves=True):
     order = "order 2" if second else rng.choice(("", "start half"))
     physics.append(line("fix step all nve/sphere/symplectic", order.split(), rng.choice((fall, ()))))
     boundary, traits = _boundary(rng, periodic), {"order 2"} if second else set()
-    if periodic and rng.random() < 0.3:
-        traits.add("deform")
-        k = boundary.split().index("p")
-        physics.append(line("fix squeeze all deform 1", "xyz"[k], "erate", number(rng.uniform(-0.5, 0.5), 0, 0, -1), "remap",
-                            rng.choice(("x", "x", "v"))))
     materials = normal in laws.MATERIALS + laws.COHESIVE
 
     def contact():
@@ -233,17 +231,45 @@ def of_the_host(rng, periodic=False, moves=True):
         for n in range(rng.choice((0, 1, 2))):
             kind, contact = ("granular", laws.granular(rng)) if rng.random() < 0.4 else laws.stock(rng)
             physics += bodies.wall(rng, cluster, f"b{n}", line(kind.removeprefix("gran/"), contact))
-    marks = {"wiggle"} if any("wiggle" in words for words in physics) else set()
-    # models of granular are drawn without units; walls with a history have the wrong one in LAMMPS 4 Feb 2025
-    marks |= {"no units"} if any("damping" in text(words) or "wall/gran" in text(words) for words in physics) else set()
+    # models of granular are drawn without units
+    marks = _marks_of_walls(physics) | ({"no units"} if any("damping" in text(words) for words in physics) else set())
     traits = {"host"} | marks | ({"periodic"} if periodic else set()) | ({"clumps"} if in_clumps else set())
     start = (line("fix prop all property/atom mol ghost yes"),) if in_clumps else ()
     return Scene(begin(rng, boundary) + start, box(found, boundary, 1), found, tuple(physics), _program(rng),
                  traits=frozenset(traits), words=("-sf", "talus"))
 
 
-KINDS = spheres, spheres, shaped, clumped, of_the_host
+def bonded(rng, periodic=False, moves=True):
+    """Grains with bonds, by scripts for LAMMPS alone, or with contacts and bodies of Talus."""
+    found, boundary = grains(rng, rng.randint(4, 24), sizes=(0.8, 1.05)), _boundary(rng, periodic)
+    with_host = rng.random() < 0.5
+    if with_host:
+        style, words = laws.stock(rng)
+        physics = [line("pair_style", style, words), line("pair_coeff * *")]
+    else:
+        physics = [line("pair_style gran/penalty"), line("pair_coeff * *", laws.law(rng))]
+    physics += [*neighbors(rng, (0.1, 0.3)), line("fix step all nve/bpm/sphere"),
+                line("fix fall all gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))]
+    if with_host:
+        walls = [] if periodic else [bodies.wall(rng, bodies.Cluster(found), "b0", line(style.removeprefix("gran/"), words))]
+        scene = Scene((), box(found, boundary, 1), found, physics=(*physics, *sum(walls, ())), program=_program(rng),
+                      traits=frozenset({"host"} | ({"periodic"} if periodic else set()) | _marks_of_walls(physics + sum(map(list, walls), []))))
+    else:
+        scene = _with_bodies(rng, found, physics, boundary, 1, lambda: laws.law(rng, normal=rng.choice(laws.NORMALS[:3])), moves)
+    return bonds.bonded(rng, scene.but(start=begin(rng, boundary, START_OF_BONDS), words=("-sf", "talus")))
+
+
+def _marks_of_walls(physics):
+    """Traits. Walls with a history have the wrong one in other units with LAMMPS 4 Feb 2025."""
+    return {"wiggle"} & {word for words in physics for word in words} | \
+        ({"no units"} if any("wall/gran" in text(words) for words in physics) else set())
+
+
+KINDS = spheres, spheres, shaped, clumped, of_the_host, bonded
 
 
 def any_scene(rng, kinds=KINDS, periodic=0.3, moves=True):
-    return rng.choice(kinds)(rng, rng.random() < periodic, moves).changed(Rounding(5))
+    scene = rng.choice(kinds)(rng, rng.random() < periodic, moves)
+    if "periodic" in scene.traits and rng.random() < 0.3:
+        scene = driven(rng, scene)
+    return scene.changed(Rounding(5))

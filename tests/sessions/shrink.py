@@ -69,13 +69,19 @@ def _shorter(parts):
 
 
 def _scenes(scene):
-    for grains in _shorter(scene.grains):
-        if grains:
-            yield scene.but(grains=tuple(grains))
+    for kept in _shorter(range(len(scene.grains))):
+        if kept:
+            place = {n + 1: k for k, n in enumerate(kept, start=1)}
+            yield scene.but(grains=tuple(scene.grains[n] for n in kept),
+                            bonds=tuple((kind, place[i], place[j]) for kind, i, j in scene.bonds if i in place and j in place))
+    for bonds in _shorter(scene.bonds):
+        yield scene.but(bonds=tuple(bonds))
     for program in _shorter(scene.program):
         yield scene.but(program=tuple(program))
     for n in reversed(range(len(scene.physics))):
         words = scene.physics[n]
+        if words[0] == "timestep":    # that of LAMMPS is another one in other units
+            continue
         name = words[1] if words[0] == "fix" and len(words) > 1 else None
         yield scene.but(physics=scene.physics[:n] + scene.physics[n + 1:],
                         vectors=tuple(vector for vector in scene.vectors if vector[0] != name))
