@@ -43,9 +43,32 @@ BondBPMRotationalTalus::BondBPMRotationalTalus(LAMMPS *lmp) :
 {
 }
 
+void BondBPMRotationalTalus::settings(int narg, char **arg)
+{
+  BondBPMRotational::settings(narg, arg);
+  from_file = false;
+}
+
+void BondBPMRotationalTalus::read_restart(FILE *fp)
+{
+  BondBPMRotational::read_restart(fp);
+  from_file = !TALUS_HOST_HAS_BOND_FRAMES;
+}
+
+void BondBPMRotationalTalus::warn_of_words()
+{
+  if (from_file && comm->me == 0)
+    error->warning(FLERR,
+                   "Bond style bpm/rotational: restart files of this LAMMPS have neither "
+                   "'normalize' nor 'break': if bond_style had them, repeat it with bond_coeff "
+                   "after read_restart");
+  from_file = false;
+}
+
 void BondBPMRotationalTalus::init_style()
 {
   BondBPMRotational::init_style();
+  warn_of_words();
   reason = find_reason();
   listed = nullptr;
   if (!reason.empty()) return;

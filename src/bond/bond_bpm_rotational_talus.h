@@ -12,7 +12,7 @@
    Other than LAMMPS' own: angles below 1e-8 are known, see bonds/rotational_bond.h; of `frame average` shear is not left
    out where the product of both lengths and the sine of the angle is below 1e-10.
    Errors: those of bond_style bpm/rotational; a strength that is not above 0, without 'break no'. Warns of a bond that is
-  longer than ghosts reach.
+  longer than ghosts reach, and of words that restart files of LAMMPS 4 Feb 2025 lack.
 ------------------------------------------------------------------------- */
 
 #ifdef BOND_CLASS
@@ -40,6 +40,8 @@ class BondBPMRotationalTalus : public BondBPMRotational,
                                public Talus::BondAccount {
  public:
   explicit BondBPMRotationalTalus(class LAMMPS *);
+  void settings(int, char **) override;
+  void read_restart(FILE *) override;
   void init_style() override;
   void compute(int, int) override;
   double memory_usage() override;
@@ -54,9 +56,11 @@ class BondBPMRotationalTalus : public BondBPMRotational,
   Talus::RotationalBonds bonds;
   int **listed = nullptr;    // the list that they are from
   int num_listed = -1;
+  bool from_file = false;    // as a restart file tells it
 
   std::string find_reason() const;
   Talus::BondModel model() const;
+  void warn_of_words();
   void check_strengths() const;
   void warn_of_long_bonds() const;
   void begin_bonds();

@@ -183,6 +183,20 @@ class SuffixBonds(SceneCase):
                 if reader and writer:
                     self.assert_same_bits(whole, last, STATE)
 
+    def test_words_that_restart_files_lack(self):
+        """Those of LAMMPS 4 Feb 2025: bond_style is given again, or a warning tells it."""
+        lacking = dict(words="normalize yes break no smooth no")
+        whole = self.simulate(TALUS, commands="run 50\nrun 50", **lacking)[-1]
+        self.simulate(TALUS, commands="run 50\nwrite_restart middle", **lacking)
+        reader = dict(folder=self.folder, text=RESTARTED, commands="run 50")
+        again = f"bond_style bpm/rotational {lacking['words']}{OLDER_WORDS}\nbond_coeff * {WHOLE}"
+        last = self.simulate(TALUS, again=again, np=2, **reader)[-1]
+        self.assert_same_bits(whole, last, STATE)
+        told = "WARNING: Bond style bpm/rotational: restart files of this LAMMPS have neither 'normalize' nor 'break'"
+        self.assertNotIn(told, self.log)
+        self.simulate(TALUS, **reader)
+        self.assertEqual(self.log.count(told), 0 if NEW else 1)
+
     def test_agglomerate(self):
         """The example: what breaks is what is missing, and it falls into parts."""
         example = os.path.join(os.environ["TALUS_SOURCE_DIR"], "examples", "bonds", "in.agglomerate")
