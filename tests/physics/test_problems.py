@@ -1,7 +1,7 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=600
 """Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap,
-grains in a fluid.
+grains in a fluid, bonded rock.
 Those that take longer are in test_problems_long."""
 
 import unittest
@@ -34,6 +34,9 @@ class Problems(unittest.TestCase):
 
     def test_fluid(self):
         run_small(self, "fluid")
+
+    def test_rock(self):
+        run_small(self, "rock")
 
 
 if __name__ == "__main__":
