@@ -75,6 +75,7 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   if (contacts.size() != room) renew(contacts, room);
   later_tallies.clear();
   tallied = 0;
+  flows.clear();
   chunk_work = EnergyByCause{};
   work_left.clear();
   if (step.weight_of_changes == 0.0F) clear_changes();
@@ -114,6 +115,7 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::int64_t done = 0;
   touching = 0;
   const auto beyond = [&](std::int64_t pair, bool touched) {
+    if (step.scene.liquid.any()) return bridge_holds(step, pair, touched);
     if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair, touched);
     return has_just_ended(history.record(pair).c[3], step.advance);
   };
@@ -183,6 +185,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   finish_geometry(step.particles, end, friction);
   if (scene.with_twisting) gather_for_twisting(step, end, scene.with_resistance || step.account);
   if (scene.with_heat) gather_temperatures(step.temperature, end);
+  if (scene.liquid.any()) find_bridge_volumes(step, end);
   run_kernels(step);
   if (history_kept && step.advance) keep_history(scene, end);
   transpose_results<friction>(end, scene);

@@ -12,6 +12,7 @@
 #include "base/aligned_vector.h"
 #include "base/state_exchange.h"
 #include "contact/deferred_forces.h"
+#include "contact/liquid_bridges.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
@@ -46,6 +47,7 @@ struct ContactScene {
   bool with_heat = false;          ///< is conducted
   bool second_order = false;       ///< changes of velocities are read
   bool beyond_contact = false;     ///< contacts of some laws last beyond zero overlap
+  LiquidBridges liquid;            ///< of bridges that have it from particles
   std::vector<int> slot_type;      ///< types in canonical order; empty if laws are uniform
 
   int row_of(int slot_a, int slot_b) const
@@ -71,6 +73,8 @@ struct ContactStep {
   bool add_to_arrays =
       false;    ///< forces, though they stay in the records: others add theirs there
   const double *temperature = nullptr;    ///< by local index, in scenes that conduct heat
+  /// By local index, where bridges have it from particles: read of all, in the end changed of owned ones.
+  double *liquid = nullptr;
   double lag = 0.0;    ///< time by which velocities are behind positions; for second order
   /// Of the changes of velocities, if they are kept. Laws of second order want 1. For the work
   /// alone a few steps may be looked at with the weight of all, the others with 0: a correction that
@@ -128,6 +132,8 @@ class ContactChunk {
   /// What the last compute() has found of the work of contacts; those of first particles that other
   /// chunks may deal with at the same time are not in the lists of step.account yet.
   const EnergyByCause &work() const { return chunk_work; }
+  /// Of bridges that broke in it.
+  const std::vector<LiquidFlow> &liquid_flows() const { return flows; }
   void add_work_left(const WorkAccount &to) const;
 
   double memory_usage() const;
@@ -146,6 +152,8 @@ class ContactChunk {
   template <bool friction, bool history_kept> void compute_all(const Step &step);
   bool lasts_beyond_contact(const ContactScene &scene, const Record *position, std::int64_t pair,
                             bool touched) const;
+  bool bridge_holds(const Step &step, std::int64_t pair, bool touched);
+  void find_bridge_volumes(const Step &step, int end);
   template <bool friction, bool history_kept>
   void compute_block(const Step &step, std::int64_t begin, int count);
   void prefetch_distant(const ParticleRecords &particles, std::size_t &next,
@@ -182,6 +190,7 @@ class ContactChunk {
   };
   std::vector<LaterTally> later_tallies;    ///< of ends that have late contacts as well
   std::size_t tallied = 0;                  ///< of those of the early chunk
+  std::vector<LiquidFlow> flows;
   EnergyByCause chunk_work;
   struct WorkLeft {
     int atom;

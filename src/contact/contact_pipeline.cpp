@@ -16,6 +16,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_twisting = table.has_twisting_torques();
   scene.with_resistance = table.has_resistance();
   scene.with_heat = table.conducts_heat();
+  scene.liquid.set(table);
   scene.second_order = table.second_order();
   scene.beyond_contact = table.lasts_beyond_contact() || scene.second_order;
 }
@@ -240,6 +241,7 @@ void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &st
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }
+  if (step.liquid) add_liquid_flows(step.liquid);
   const bool forces = step.deliver || step.add_to_arrays;
   if (forces || arrays.heat_flow)
     in_ranges(order.size(), [&](int begin, int end) {

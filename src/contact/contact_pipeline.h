@@ -122,6 +122,8 @@ class ContactPipeline {
   bool keeps_history() const { return scene.with_history; }
   bool keeps_omega() const { return scene.with_friction; }
   bool conducts_heat() const { return scene.with_heat; }
+  /// Bridges have their liquid from particles: steps need ContactStep::liquid.
+  bool shares_liquid() const { return scene.liquid.any(); }
   double memory_usage() const;
 
  private:
@@ -132,6 +134,7 @@ class ContactPipeline {
   void make_room();
   void start_step(const ContactStep &step);
   void end_step(const ParticleView &arrays, const ContactStep &step);
+  void add_liquid_flows(double *liquid) const;
   void find_shared();
   void run_phase(const ParticleView &arrays, const ContactStep &step, int phase);
   template <class Visit> void for_each_chunk_of(int thread, int phase, Visit visit);

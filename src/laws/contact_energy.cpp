@@ -101,8 +101,9 @@ static ContactResponse with_damping_of_cohesion(const ContactLaw &law,
     s.velocity = velocity;
     s.normal_velocity = velocity.x;
     s.force = {0.0, 0.0, 0.0};
-    double nothing[ContactBatch::history_size] = {};
-    law.cohesion().one(s, law.coefficients(Stage::COHESION, row), nothing, 0.0);
+    // a bridge of the liquid of particles: there is one, and how large it is does not matter
+    double history[ContactBatch::history_size] = {law.cohesion().reads("share") ? 1.0 : 0.0};
+    law.cohesion().one(s, law.coefficients(Stage::COHESION, row), history, 0.0);
     return s.force;
   };
   const Vector3<double> still = force({0.0, 0.0, 0.0});

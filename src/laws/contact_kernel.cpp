@@ -227,7 +227,8 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
     kernel.add(advance ? end_touch<true, false> : end_touch<false, false>, 0,
                ending_with_touch(law));
   }
-  kernel.add(law[last].advancing, law.first_coefficient(last));
+  kernel.add(law[last].advancing, law.first_coefficient(last),
+             law.history().of_stage[static_cast<int>(last)]);
   return kernel;
 }
 

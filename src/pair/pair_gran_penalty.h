@@ -29,7 +29,7 @@ class PairGranPenalty : public PairOfSystem<Pair> {
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
 
-  /// Of the masses that contacts feel.
+  /// Of the masses that contacts feel, and of the liquid that bridges have.
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override;
@@ -42,6 +42,8 @@ class PairGranPenalty : public PairOfSystem<Pair> {
  private:
   void allocate();
   void check_host();
+  /// Bridges of some types have the liquid of particles.
+  bool shares_liquid() const;
 };
 
 }    // namespace LAMMPS_NS

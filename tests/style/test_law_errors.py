@@ -158,6 +158,10 @@ def wet_and_plastic_cases():
     yield f"{wet} 0.1 20 fraction 0.01 viscosity 1.0", "missing least gap over the effective radius", "1.0"
     yield f"{wet} 0.1 20 fraction 0.01 viscosity -1.0 0.1", "expected viscosity eta", "-1.0"
     yield f"{wet} 0.1 20 fraction 0.01 viscosity 1.0 0", "expected least gap over the effective radius", "0"
+    for word in "0", "1.01", "-0.1", "x":
+        yield f"{wet} 0.1 20 volume 1e-3 share {word}", "expected share of the liquid between the particles", word
+    yield f"{wet} 0.1 20 volume 1e-3 share", "missing share of the liquid between the particles", "share"
+    yield f"{wet} 0.1 20 volume 1e-3 share 1 share 1", None, "share"
     yield "luding 1e3 1e3 0 0.1 2.0", "k2 of unloading must be larger than k1", "1e3"
     yield "luding 1e3 5e3 -1 0.1 2.0", "expected adhesive stiffness kc", "-1"
     yield "luding 1e3 5e3 0 0 2.0", "expected plasticity depth phi", "0"

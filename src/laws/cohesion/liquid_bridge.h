@@ -13,12 +13,15 @@
 //   F_n = -6 pi eta R_eff v_n/g                            (Adams and Perchard 1985; Lian, Adams, Thornton 1996)
 //   F_t = -6 pi eta R_eff v_t (.9588 - 8/15 ln g) >= 0     (Goldman, Cox, Brenner 1967; Nase et al. 2001)
 //
-// with the velocity v_t of the surfaces. The volume is given, or a share of the volumes of the particles.
+// with the velocity v_t of the surfaces. The volume is given, or a share of the volumes of the particles: of
+// bridges that take their liquid from particles (liquid_of_particles.h) the largest one, and what they have is in the
+// history.
 
 #ifndef TALUS_LAWS_COHESION_LIQUID_BRIDGE_H
 #define TALUS_LAWS_COHESION_LIQUID_BRIDGE_H
 
 #include "base/power.h"
+#include "laws/law_list.h"
 #include "laws/tangential/common.h"
 
 #include <cmath>
@@ -50,7 +53,7 @@ template <class Model> struct LiquidBridge : CohesionLaw {
                                                      {"viscosity"},
                                                      {"least_gap"}};
 
-  /// gamma, theta, "volume" V or "fraction" f, and perhaps "viscosity" eta least_gap.
+  /// gamma, theta, "volume" V or "fraction" f, and perhaps "viscosity" eta least_gap and "share" part, in any order.
   static void read(LawReader &r)
   {
     GivenNumbers &given = r.spec.given;
@@ -59,9 +62,17 @@ template <class Model> struct LiquidBridge : CohesionLaw {
     const bool is_volume = r.words.choice("volume of the bridge", {"volume", "fraction"}) == 0;
     given[is_volume ? "bridge volume" : "bridge fraction"] =
         r.words.positive(is_volume ? "volume of the bridge" : "fraction of the particles' volume");
-    if (!r.words.take("viscosity")) return;
-    given["viscosity"] = r.words.not_negative("viscosity eta") * r.pressure_unit;
-    given["least gap"] = r.words.positive("least gap over the effective radius");
+    while (true)
+      if (!given.has("viscosity") && r.words.take("viscosity")) {
+        given["viscosity"] = r.words.not_negative("viscosity eta") * r.pressure_unit;
+        given["least gap"] = r.words.positive("least gap over the effective radius");
+      } else if (!given.has("share") && r.words.take("share")) {
+        given["share"] =
+            r.words.between("share of the liquid between the particles", 0.0, 1.0, true);
+        r.spec.law.choose(Stage::COHESION, find_law(Stage::COHESION, Model::of_particles));
+      } else {
+        return;
+      }
   }
 
   static BridgeRow<double> mix(const Mixing &m)
@@ -100,26 +111,11 @@ template <class Model> struct LiquidBridge : CohesionLaw {
     if (any(c.viscosity > splat<Real>(0.0))) add_viscous_force(c, bridge.gap, s);
   }
 
- private:
-  static constexpr double pi = 3.14159265358979323846;
-
-  template <class Real>
-  TALUS_INLINE static Bridge<Real> bridge_of(const BridgeRow<Real> &c, const ContactLanes<Real> &s)
+ protected:
+  template <class Real> TALUS_INLINE static Real gap_of(const ContactLanes<Real> &s)
   {
-    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
-    Real volume = c.volume;
-    if (any(c.fraction > zero)) volume = volume + c.fraction * volume_of_particles(s, zero, one);
-    return {select(s.overlap < zero, -s.overlap, zero), 2.0 * s.radius, volume};
-  }
-
-  /// From the sum of their radii and the effective one; against a large body that of one sphere.
-  template <class Real>
-  TALUS_INLINE static Real volume_of_particles(const ContactLanes<Real> &s, Real zero, Real one)
-  {
-    const auto are_two = s.inverse_distance > zero;
-    const Real sum = s.overlap + one / select(are_two, s.inverse_distance, one);
-    const Real cubes = sum * sum * (sum - 3.0 * s.radius);
-    return 4.0 / 3.0 * pi * select(are_two, cubes, s.radius * s.radius * s.radius);
+    const Real zero = splat<Real>(0.0);
+    return select(s.overlap < zero, -s.overlap, zero);
   }
 
   template <class Real>
@@ -136,6 +132,28 @@ template <class Model> struct LiquidBridge : CohesionLaw {
     s.tangential = s.tangential + across;
     s.force = s.force + along + across;
     s.torque_per_radius = s.torque_per_radius + cross(s.normal, across);
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+
+  template <class Real>
+  TALUS_INLINE static Bridge<Real> bridge_of(const BridgeRow<Real> &c, const ContactLanes<Real> &s)
+  {
+    const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
+    Real volume = c.volume;
+    if (any(c.fraction > zero)) volume = volume + c.fraction * volume_of_particles(s, zero, one);
+    return {gap_of(s), 2.0 * s.radius, volume};
+  }
+
+  /// From the sum of their radii and the effective one; against a large body that of one sphere.
+  template <class Real>
+  TALUS_INLINE static Real volume_of_particles(const ContactLanes<Real> &s, Real zero, Real one)
+  {
+    const auto are_two = s.inverse_distance > zero;
+    const Real sum = s.overlap + one / select(are_two, s.inverse_distance, one);
+    const Real cubes = sum * sum * (sum - 3.0 * s.radius);
+    return 4.0 / 3.0 * pi * select(are_two, cubes, s.radius * s.radius * s.radius);
   }
 };
 

@@ -3,6 +3,7 @@
 // The laws of stage cohesion.
 
 #include "laws/cohesion/adhesion.h"
+#include "laws/cohesion/liquid_of_particles.h"
 #include "laws/cohesion/rabinovich.h"
 #include "laws/cohesion/willett.h"
 #include "laws/law_definition.h"
@@ -20,6 +21,8 @@ std::vector<const Law *> cohesion_laws()
       &law<Adhesion<PerkoModel>>,
       &law<LiquidBridge<WillettModel>>,
       &law<LiquidBridge<RabinovichModel>>,
+      &law<LiquidBridgeOfParticles<WillettModel>>,
+      &law<LiquidBridgeOfParticles<RabinovichModel>>,
   };
 }
 

@@ -18,6 +18,9 @@ namespace Talus {
 
 struct RabinovichModel {
   static constexpr const char *name = "rabinovich", *label = "liquid bridge (Rabinovich)";
+  static constexpr const char *of_particles = "rabinovich/share",
+                              *label_of_particles =
+                                  "liquid bridge (Rabinovich, liquid of particles)";
 
   template <class Real>
   TALUS_INLINE static Real force(const BridgeRow<Real> &c, const Bridge<Real> &b)

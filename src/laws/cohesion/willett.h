@@ -16,6 +16,8 @@ namespace Talus {
 
 struct WillettModel {
   static constexpr const char *name = "willett", *label = "liquid bridge (Willett)";
+  static constexpr const char *of_particles = "willett/share",
+                              *label_of_particles = "liquid bridge (Willett, liquid of particles)";
 
   template <class Real>
   TALUS_INLINE static Real force(const BridgeRow<Real> &c, const Bridge<Real> &b)

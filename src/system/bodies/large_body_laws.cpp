@@ -30,6 +30,12 @@ void LargeBody::set_laws()
   table.reset(atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++) {    // only the rows (t, t) are used
     ContactSides sides = sides_of(i);
+    if (sides.law().cohesion().reads("share"))
+      error->all(
+          FLERR,
+          "Fix large/body {}: a body has no liquid to 'share': leave 'share' out of its law, "
+          "bridges then have the given volume, of a wet surface",
+          fix->id);
     if (system.integrators().order() == 2)
       sides.a.law = sides.b.law = second_order_law(sides.law());
     for (int j = i; j <= atom->ntypes; j++) table.set(i, j, sides.law(), sides.coefficients());

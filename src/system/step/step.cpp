@@ -3,6 +3,7 @@
 #include "system/step/step.h"
 
 #include "system/contacts/fix_contact_store.h"
+#include "system/contacts/liquid_of_particles.h"
 #include "system/exchange/direct_exchange.h"
 #include "system/shapes/shaped_particles.h"
 #include "system/step/granular_system.h"
@@ -11,6 +12,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "fix.h"
+#include "pair.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -94,6 +96,10 @@ void Step::compute_contacts(const std::function<void(const TalliedContact &)> *t
   step.add_to_arrays = stays_in_records && !alone;
   find_changes(step, order);
   if (contacts().conducts_heat()) step.temperature = atom->temperature;
+  if (contacts().shares_liquid()) {    // changed by the last step
+    comm->forward_comm(system.pair_style().get());
+    step.liquid = liquid_of_particles(*atom);
+  }
 
   system.weights().begin_step(contacts());
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
