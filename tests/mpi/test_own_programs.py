@@ -56,6 +56,23 @@ class Programs(SceneCase):
         self.make([CMAKE, "-S", ".", "-B", "made"], env)
         self.make([CMAKE, "--build", "made"], env)
         self.assertEqual(self.said("made/partner", env, 2), first)
+        self.turn_into_cplusplus()
+        self.make([CMAKE, "-S", ".", "-B", "again"], env)
+        self.make([CMAKE, "--build", "again"], env)
+        self.assertEqual(self.said("again/partner", env), first)
+
+    def turn_into_cplusplus(self):
+        """The same program, in a project that has no C."""
+        path = os.path.join(self.folder, "partner")
+        os.rename(path + ".c", path + ".cpp")
+        for file, old, new in ((path + ".cpp", "char *words", "const char *words"), (path + ".cpp", "(5, words", "(5, const_cast<char **>(words)"),
+                               (os.path.join(self.folder, "CMakeLists.txt"), "LANGUAGES C)", "LANGUAGES CXX)"),
+                               (os.path.join(self.folder, "CMakeLists.txt"), "partner.c)", "partner.cpp)")):
+            with open(file) as opened:
+                text = opened.read()
+            self.assertEqual(text.count(old), 1)
+            with open(file, "w") as opened:
+                opened.write(text.replace(old, new))
 
     def test_of_what_is_installed(self):
         prefix = self.path("installed")
