@@ -35,13 +35,16 @@ SCRIPT_ROWS = {
     "`in.chute` of LAMMPS": [script("chute.long")],
     "a gas of 27 000 spheres": [script("gas.0.02"), script("gas.0.1"), script("gas.0.3")],
     "`in.granregion.box`": [script("granregion.box"), script("restitution")],
+    "a block of 4000 spheres with bonds": [script("bonds.block")],
 }
+LATER = ", measured later"    # at the end of a row whose case the report does not have yet
 
 # rows of README: the same row in a table of doc/figures.md
 README_ROWS = {
     "a bed of 50 000 spheres": "a bed of 50 000 spheres, gran/hertz/history",
     "a drum that is a mesh": "29 185 grains in a turning drum that is a mesh",
     "768 ellipsoids": "768 ellipsoids",
+    "a block of 4000 spheres with bonds": "a block of 4000 spheres with bonds",
 }
 
 
@@ -146,6 +149,10 @@ class Figures(unittest.TestCase):
         for row in rows:
             with self.subTest(row[0]):
                 cells = next(cells for words, cells in SCRIPT_ROWS.items() if row[0].startswith(words))
+                if row[0].endswith(LATER):
+                    for (name, _, key, _), _ in cells:
+                        self.assertNotIn(f"\n| {key[0]} |", section(name), "it is in the report now")
+                    continue
                 for column in (0, 1):
                     shown = row[1 + column].split(", ")
                     self.assertEqual(len(shown), len(cells))
