@@ -180,11 +180,15 @@ def run_in_a_process_that_stays(job, np, threads, timeout):
     return _pool[0].run_job(job, np, threads, timeout)
 
 
-def _crashed_in_finalize(returncode, log, np):
-    """LAMMPS and the plugin were gone, and so said; what is left is MPI_Finalize(), in which Open MPI 4 crashes about once in a
-    thousand times (its issue 10117)."""
+def _crashed_in_finalize(returncode, said, np):
+    """LAMMPS and the plugin were gone, or LAMMPS had ended with an error, and so said; what is left is MPI_Finalize(), in which Open
+    MPI 4 crashes about once in a thousand times (its issue 10117)."""
     segmentation_fault = 128 + 11
-    return np > 1 and returncode == segmentation_fault and "\nTotal wall time: " in log
+    return np > 1 and returncode == segmentation_fault and ("\nTotal wall time: " in said or _tells_error(said))
+
+
+def _tells_error(said):
+    return re.search("^ERROR(:| on proc)", said, re.MULTILINE) is not None
 
 
 def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, cwd=None,
@@ -215,23 +219,29 @@ def run_lammps(script_text, np=1, variables=None, env=None, expect_error=False, 
     stay = stay and stays(env)
     env = environment(env)
     cores = 1 if expect_error else np * _threads(env)    # the start of several ranks mostly waits, and that is all there is
-    with cores_held(cores):
-        if stay:
-            job = {"folder": cwd, "words": words, "script": f"in.{name}"}
-            returncode, output = run_in_a_process_that_stays(job, np, _threads(env), timeout)
-        else:
-            returncode, output = _run_to_end(command, cwd, env, timeout * SLOWER)
-    log = ""
-    if os.path.exists(log_path):
-        with open(log_path, errors="replace") as file:
-            log = file.read()
+
+    def run():
+        with cores_held(cores):
+            if stay:
+                job = {"folder": cwd, "words": words, "script": f"in.{name}"}
+                returncode, output = run_in_a_process_that_stays(job, np, _threads(env), timeout)
+            else:
+                returncode, output = _run_to_end(command, cwd, env, timeout * SLOWER)
+        log = ""
+        if os.path.exists(log_path):
+            with open(log_path, errors="replace") as file:
+                log = file.read()
+        return returncode, log, output
+
+    returncode, log, output = run()
+    if expect_error and _crashed_in_finalize(returncode, log + "\n" + output, np):
+        returncode, log, output = run()    # a crash of ours would come again
     result = Result(log, output, returncode, cwd)
 
     def problem(what):
         return AssertionError(f"{what}: {' '.join(command)}\n{log[-3000:]}\n{output[-2000:]}")
 
-    if expect_error and (returncode != 1
-                         or not re.search("^ERROR(:| on proc)", log + "\n" + output, re.MULTILINE)):
+    if expect_error and (returncode != 1 or not _tells_error(log + "\n" + output)):
         raise problem(f"a LAMMPS error was expected, got return code {returncode}")
     if not expect_error and returncode != 0 and not _crashed_in_finalize(returncode, log, np):
         raise problem(f"return code {returncode}")
