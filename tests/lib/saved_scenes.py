@@ -15,13 +15,13 @@ HISTORY = "hooke/history 4000.0 NULL 20.0 NULL 0.5 0"
 @dataclasses.dataclass
 class Scene:
     """script: of LAMMPS; vectors: (fix, length) whose numbers are compared; columns: more by particle; words: of the command
-    line; write: makes the data file 'grains'; later: how 900 steps are divided.  To fix deform each advance is a run."""
+    line; write: makes the data file 'grains'; later: how 400 steps are divided.  To fix deform each advance is a run."""
     script: str
     vectors: tuple = ()
     columns: str = ""
     words: tuple = ()
     write: object = None
-    later: tuple = (900,)
+    later: tuple = (400,)
 
 
 def tossed(path, layers=3, types=1):
@@ -220,7 +220,7 @@ SCENES = {
     "tilted": Scene(start("p p f", read="read_data grains\nchange_box all triclinic\nchange_box all xy final 1.5 remap units box") +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", write=tossed),
     "deformed": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
-                      "fix press all deform 1 x erate -0.1 remap x\n", write=tossed, later=(5, 895)),
+                      "fix press all deform 1 x erate -0.1 remap x\n", write=tossed, later=(5, 395)),
     "steps of the host": Scene(start("p p f") + pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n"
                                "comm_proxy no\nrun_style verlet/stock\n", write=tossed),
 }
