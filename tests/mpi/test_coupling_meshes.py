@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: cost=40 timeout=400
+# ctest: cost=20 timeout=400 stay
 """Meshes whose vertices a partner moves: moved as a rigid body they are one; forces on vertices have the force, torque and work of
 the contacts; momentum is kept; the same bits on any ranks and over a restart; a surface that stretches or runs takes grains along;
 a wave against a slow twin; spheres, clumps and particles with a shape; refusals."""
@@ -8,7 +8,6 @@ import json
 import math
 import os
 import random
-import sys
 import unittest
 
 import body_meshes
@@ -65,7 +64,7 @@ class MovedMesh(CoupledCase):
     def move(self, name, np=1, env=None, **spec):
         """Rows of the exchanges."""
         self.write(name + ".spec", json.dumps(spec))
-        self.launch([sys.executable, moved_mesh.__file__, name + ".spec", name], np, env)
+        self.drive("import moved_mesh\nmoved_mesh.main()\n", name + ".spec", name, np=np, env=env)
         return moved_mesh.in_numbers(self.read_json(name))
 
     def end(self, name):
@@ -277,7 +276,7 @@ write_dump all custom belt.end id x y z vx vy vz omegax omegay omegaz modify for
                           omega=(0.3, 0.0, -0.2 * j), diameter=draw.uniform(0.7, 1.0)) for i in range(4) for j in range(4)]
         self.grains(spheres)
         law, words = "hooke 5e3 20 tangential dashpot 15 0.4", {"height": 0.15, "number": 1.5, "rate": 8.0, "growth": 0.1}
-        triangles, steps = floor(12), 400
+        triangles, steps = floor(8), 400
         self.move("wave", scene=self.scene(triangles, law=law), way="wave", words=words, every=1, steps=steps)
         end = self.end("wave")
         wave = moved_mesh.Wave(None, **words)
