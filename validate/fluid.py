@@ -49,13 +49,14 @@ def case(*words):
 # ---- single grains, many grains
 
 def settle(bench):
-    rows = problems.at_once([case("settle", d, 900) for d in SIZES])
+    sizes = bench.size(SIZES, (SIZES[0], SIZES[4], SIZES[-1]))
+    rows = problems.at_once([case("settle", d, 900) for d in sizes])
     bench.section.heading("One grain")
-    for d, (found, terminal, reynolds) in zip(SIZES, rows):
+    for d, (found, terminal, reynolds) in zip(sizes, rows):
         bench.section.record(part="settling", diameter=d, reynolds=reynolds, found=found, expected=terminal)
     bench.section.result("terminal velocities: largest distance from the balance of forces", max(abs(f / v - 1) for f, v, _ in rows), 0.0, 1e-6)
     bench.section.result("decades of the Reynolds number", math.log10(rows[-1][2] / rows[0][2]), 6.0, 12.0)
-    bench.section.table(["d, mm", "Re", "m/s", "expected"], [[1e3 * d, r, f, v] for d, (f, v, r) in zip(SIZES, rows)])
+    bench.section.table(["d, mm", "Re", "m/s", "expected"], [[1e3 * d, r, f, v] for d, (f, v, r) in zip(sizes, rows)])
     bench.section.text("In water at rest, law `schiller/naumann`, of density 2500 kg/m^3, after 900 exchanges of 20 steps.")
     return rows
 
@@ -75,11 +76,11 @@ def exponent(points):
 
 
 def hinder(bench):
-    solids = bench.size(SOLIDS, SOLIDS[1:4])
-    points = problems.at_once([case("hinder", d, solid) for d, _ in HINDERED for solid in solids])
+    solids, sizes = bench.size((SOLIDS, HINDERED), ((0.1, 0.3), HINDERED[::3]))
+    points = problems.at_once([case("hinder", d, solid) for d, _ in sizes for solid in solids])
     bench.section.heading("Hindered settling")
     rows = []
-    for k, (d, _) in enumerate(HINDERED):
+    for k, (d, _) in enumerate(sizes):
         mine = points[k * len(solids):(k + 1) * len(solids)]
         reynolds = mine[0][2]
         n, expected = exponent(mine), richardson_zaki(reynolds)
@@ -126,7 +127,7 @@ def draw(plt, points, solids, singles):
     left.loglog([r for _, _, r in singles], [v for _, v, _ in singles], **plot.style(0, marker=None))
     left.set_xlabel("Reynolds number")
     left.set_ylabel("terminal velocity, m/s")
-    for k in range(len(HINDERED)):
+    for k in range(len(points) // len(solids)):
         mine = points[k * len(solids):(k + 1) * len(solids)]
         middle.plot([s for _, s, _ in mine], [v for v, _, _ in mine], **plot.style(k, linestyle="none"), label=f"Re {mine[0][2]:.2g}")
         line = [0.45 * j / 50 for j in range(51)]
