@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300 label=hostless
+# ctest: cost=25 timeout=300 label=hostless
 """What the scripts say when something is missing: one message, with the cure, and a failure.
 
 The hosts here are stubs: a few files that look like a LAMMPS source tree or build directory.

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=120
+# ctest: timeout=120 stay
 """Order of the explicit exchange: a grain that lies on a plate on a spring, which the partner integrates, against the two modes
 of vibration of that system; the table of doc/coupling.md. The load of an interval is taken to be that of the last one, and
 what was wrong about that is either left so, or made good when it is known."""

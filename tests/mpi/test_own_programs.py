@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=180
+# ctest: cost=30 timeout=180
 """Users' programs, begun as the pages say: examples/partner in Python and in C, with the file of environment, pkg-config,
 CMake and pip, of the build folder and of what is installed. All print the same digits."""
 

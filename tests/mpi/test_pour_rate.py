@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=400
+# ctest: cost=15 timeout=400
 """fix pour/rate: mass rate, sizes, no overlaps when made, the same on 1, 2 and 4 ranks and after a restart, errors."""
 
 import itertools

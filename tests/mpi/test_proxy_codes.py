@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=15 timeout=300
 """Encoded values through the direct exchange, for every decomposition that bricks can make.
 
 Without physics, in two programs: the transfer alone, without LAMMPS, and the host's communication

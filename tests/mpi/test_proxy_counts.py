@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=300
+# ctest: cost=20 timeout=300
 """Messages, bytes and collective operations of a step, counted by an interposed library.
 
 Particles at rest: the steps of a long run are those of a short one and more of the same.  What one

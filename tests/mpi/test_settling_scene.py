@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: label=smoke timeout=300
+# ctest: cost=15 label=smoke timeout=300
 """The main scene, input/in.settling, at a small size: what it promises in its summary, what it
 writes, and the same particles with the same bits on any number of ranks."""
 

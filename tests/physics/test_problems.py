@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600
+# ctest: cost=60 timeout=600
 """Small versions of problems with published answers: impacts, cases of MFIX-DEM, silo, column, shear, triaxial compression, heap,
 grains in a fluid, bonded rock.
 Those that take longer are in test_problems_long."""

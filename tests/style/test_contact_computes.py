@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=120
+# ctest: cost=15 timeout=120
 """compute contact/gran/local, contact/gran/atom, dissipation/gran/atom: contacts of particles and large bodies as
 data. Forces and torques of the rows are those of the particles; energies by particle are those of penalty/stats."""
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-# ctest: timeout=600
+# ctest: cost=15 timeout=600
 """Scripts of package BPM with and without the suffix talus: forces, motion and breaking of bonds as stock LAMMPS has them,
 contacts where bonds have broken, the same bits on any ranks and threads, and restart files that either can go on from."""
 
