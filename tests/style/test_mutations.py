@@ -20,7 +20,7 @@ DOC = os.path.join(os.environ["TALUS_SOURCE_DIR"], "doc")
 
 class Mutations(unittest.TestCase):
     """seed: of what is drawn. The others: how many runs of each kind."""
-    seed, lines, files = 20260101, 110, 24
+    seed, lines, files = 20260101, 60, 12
 
     def check(self, cases):
         def fault(pool, n, what, script, files):
