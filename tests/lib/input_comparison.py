@@ -46,7 +46,7 @@ class Run:
         text = stock_inputs.shortened(stock_inputs.read_text(given, source()), steps)
         if code == TWIN:
             text = stock_inputs.with_other_rounding(text)
-        text = stock_inputs.before_first_run(text, FRAMES.format(every=given.every))
+        text = stock_inputs.before_first_run(text, FRAMES.format(every=min(given.every, steps)))
         done = run_lammps(text, np=ranks, variables=given.variables, cwd=self.folder, name=given.title[3:],
                           arguments=["-sf", "talus"] if code == TALUS else [], expect_error=bool(error), timeout=1200,
                           env={} if code == TALUS else {"LAMMPS_PLUGIN_PATH": ""})
