@@ -8,6 +8,7 @@
 #include "fix_bond_history.h"
 #include "force.h"
 #include "lammps.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -68,6 +69,10 @@ void BondBPMRotationalTalus::warn_of_words()
 void BondBPMRotationalTalus::init_style()
 {
   BondBPMRotational::init_style();
+  // behind read_restart LAMMPS makes that of this style after it has looked for them, and leaves histories of other bonds
+  // of a particle where they were when one breaks
+  histories = modify->get_fix_by_style("BOND_HISTORY");
+  n_histories = static_cast<int>(histories.size());
   warn_of_words();
   reason = find_reason();
   listed = nullptr;
@@ -202,17 +207,40 @@ void BondBPMRotationalTalus::take_list(bool first)
   listed = neighbor->bondlist;
   num_listed = neighbor->nbondlist;
   const tagint *const tag = atom->tag;
+  bigint turned = 0;
   std::vector<BondEnds> found;
   found.reserve(num_listed);
   for (int n = 0; n < num_listed; n++) {
     BondEnds bond{listed[n][0], listed[n][1], std::max(listed[n][2], 0)};
     if (tag[bond.second] < tag[bond.first]) std::swap(bond.first, bond.second);
-    if (bond.type > 0 && (first || is_unset(n))) store_bond(n, bond.first, bond.second);
+    if (bond.type > 0 && (first || is_unset(n))) {
+      store_bond(n, bond.first, bond.second);
+      turned += is_turned(bond.first) || is_turned(bond.second);
+    }
     found.push_back(bond);
   }
   const std::vector<std::int64_t> ids(tag, tag + atom->nlocal + atom->nghost);
   bonds.set_bonds(found, atom->nlocal, ids.data());
   if (first) warn_of_long_bonds();
+  if (update->setupflag && neighbor->ago == 0) warn_of_turned_bonds(turned);
+}
+
+/* Since its quaternion was 1 0 0 0, by more than a millionth: LAMMPS takes the direction of a new bond as if it had
+   not. */
+
+bool BondBPMRotationalTalus::is_turned(int i) const
+{
+  const double *const q = atom->quat[i];
+  return q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 1e-12;
+}
+
+void BondBPMRotationalTalus::warn_of_turned_bonds(bigint turned) const
+{
+  MPI_Allreduce(MPI_IN_PLACE, &turned, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (turned > 0 && comm->me == 0)
+    error->warning(
+        FLERR, "Bond style bpm/rotational: new bonds of spheres that have turned begin strained: "
+               "give 'set group all quat 0 0 1 0' before the first bonds are made");
 }
 
 /* On more ranks LAMMPS ends where the other end is not there. */

@@ -12,7 +12,8 @@
    Other than LAMMPS' own: angles below 1e-8 are known, see bonds/rotational_bond.h; of `frame average` shear is not left
    out where the product of both lengths and the sine of the angle is below 1e-10.
    Errors: those of bond_style bpm/rotational; a strength that is not above 0, without 'break no'. Warns of a bond that is
-  longer than ghosts reach, and of words that restart files of LAMMPS 4 Feb 2025 lack.
+  longer than ghosts reach, of new ones between spheres that have turned, and of words that restart files of LAMMPS
+  4 Feb 2025 lack.
 ------------------------------------------------------------------------- */
 
 #ifdef BOND_CLASS
@@ -63,6 +64,8 @@ class BondBPMRotationalTalus : public BondBPMRotational,
   void warn_of_words();
   void check_strengths() const;
   void warn_of_long_bonds() const;
+  bool is_turned(int) const;
+  void warn_of_turned_bonds(LAMMPS_NS::bigint) const;
   void begin_bonds();
   void take_list(bool first);
   bool is_unset(int) const;

@@ -60,7 +60,7 @@ def bonded(rng, scene):
     how = rng.choice(("one by one", "many", "read"))
     once = [line(APART.replace("coul 1", "coul 0")), line("create_bonds many all all 1 0", length(1.0))] if how == "many" else []
     once += [line(TOUCHING if "overlay/pair" in words else APART), words, *(coefficients(rng, k, words) for k in range(1, BOND_TYPES + 1))]
-    if rng.random() < 0.5:    # of all: where orientations differ, bonds begin twisted
+    if rng.random() < 0.3:    # bonds begin strained by it
         once.append(line("set group all quat", *[f"{rng.uniform(-1, 1):.3g}" for _ in "xyz"], rng.randint(1, 359)))
     share = rng.choice((0.5, 0.9, 1.0))
     found = () if how == "many" else tuple((rng.randint(1, BOND_TYPES), i, j) for i, j in near(scene) if rng.random() < share)

@@ -39,13 +39,19 @@ def _pressures(rng, periodic):
 
 
 def driven(rng, scene):
-    """The same with a box that changes. Traits: `deform`; and `pressure` where it follows sums with rounding."""
+    """The same with a box that changes. Traits: `deform`; `pressure` where it follows sums with rounding; `speeds` where Talus knows
+    those of sides, and LAMMPS does not."""
     periodic = _periodic(scene)
     if rng.random() < 0.25:
-        return scene.but(physics=(*scene.physics, _pressures(rng, periodic)), traits=scene.traits | {"deform", "pressure"})
+        fix = _pressures(rng, periodic)
+        return scene.but(physics=(*scene.physics, fix), traits=scene.traits | {"deform", "pressure"} | _speeds(fix))
     fix, tilted = _sides(rng, periodic)
     box = (*scene.box, line("change_box all triclinic")) if tilted else scene.box
-    return scene.but(box=box, physics=(*scene.physics, fix), traits=scene.traits | {"deform"})
+    return scene.but(box=box, physics=(*scene.physics, fix), traits=scene.traits | {"deform"} | _speeds(fix))
+
+
+def _speeds(fix):
+    return {"speeds"} if "v" in fix and {"pressure", "volume"} & set(fix) else set()
 
 
 def _periodic(scene):

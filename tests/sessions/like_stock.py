@@ -16,7 +16,7 @@ OF_BONDS = 1e-8, 2e-6               # the same where angles of LAMMPS are rounde
 def draw(rng):
     while True:
         scene = scenes.any_scene(rng, (scenes.of_the_host, scenes.of_the_host, scenes.bonded))
-        if "host" in scene.traits and "wiggle" not in scene.traits:    # LAMMPS begins its time anew after a restart
+        if "host" in scene.traits and not scene.traits & {"wiggle", "speeds"}:    # LAMMPS begins its time anew after a restart
             scene = scene.but(program=(("run", rng.choice((1, STEPS))),))
             return scene, 1 if segments(scene) == 1 else rng.choice((1, 1, 1, 2))
 

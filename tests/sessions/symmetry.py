@@ -16,6 +16,7 @@ POSITION, RELATIVE = 1e-9, 1e-6
 def draw(rng):
     scene = scenes.any_scene(rng, (scenes.spheres, scenes.spheres, scenes.shaped, scenes.clumped, scenes.of_the_host, scenes.bonded))
     scene = scene.but(program=(*scene.program[:-1], ("run", rng.choice((1, 10, 25)))))
+    scene = scene.but(once=tuple(words for words in scene.once if words[0] != "set group all quat"))    # new bonds begin strained by it
     kinds = ["moved"] if scene.traits & NOT_TURNED else ["moved", "turned", "turned"]
     kind = rng.choice(kinds if "no units" in scene.traits else [*kinds, "units"])
     if kind == "units":

@@ -197,6 +197,15 @@ class SuffixBonds(SceneCase):
         self.simulate(TALUS, **reader)
         self.assertEqual(self.log.count(told), 0 if NEW else 1)
 
+    def test_breaking_after_a_restart(self):
+        """Bonds that are left go on as they were: with LAMMPS those of a particle take the places of others in that run."""
+        whole = self.simulate(TALUS, **self.breaking(commands="run 20\nrun 60", every=20))[-1]
+        self.assertGreater(sum(step > 20 for step, _, _ in self.broken(self.folder)), 10)
+        self.simulate(TALUS, **self.breaking(commands="run 20\nwrite_restart middle", every=20))
+        for np in 1, 2:
+            last = self.simulate(TALUS, np=np, folder=self.folder, text=RESTARTED, commands="run 60", every=20)[-1]
+            self.assert_same_bits(whole, last, STATE)
+
     def test_agglomerate(self):
         """The example: what breaks is what is missing, and it falls into parts."""
         example = os.path.join(os.environ["TALUS_SOURCE_DIR"], "examples", "bonds", "in.agglomerate")
@@ -240,6 +249,24 @@ class SuffixBonds(SceneCase):
         self.bonds.pop()
         self.simulate(TALUS, commands="run 5", words="break no smooth no")
         self.assertNotIn("longest bond", self.log)
+
+    def test_bonds_of_spheres_that_have_turned(self):
+        """LAMMPS takes their directions as if they had not; the cure helps."""
+        bonds, self.bonds = self.bonds, []
+        turning = "run 50\n{cure}\nspecial_bonds lj 0 1 1 coul 0 1 1\ncreate_bonds many all all 1 0.0 1.15\n" \
+                  "special_bonds lj 0 1 1 coul 1 1 1\nrun 0"
+        told = "WARNING: Bond style bpm/rotational: new bonds of spheres that have turned begin strained"
+        free = dict(words="break no smooth no", special="lj 0 1 1 coul 1 1 1", every=50)
+        for np in 1, 2:
+            forces = []
+            for cure in "", "set group all quat 0 0 1 0":
+                self.simulate(TALUS, np=np, commands=turning.format(cure=cure), more="thermo_style custom step fmax", **free)
+                self.assertEqual(self.log.count(told), 0 if cure else 1)
+                forces.append(thermo(self.log)[-1]["Fmax"])
+            self.assertGreater(forces[0], 2 * forces[1])
+        self.bonds = bonds
+        self.simulate(TALUS, commands="run 20\nrun 20", **free)
+        self.assertNotIn(told, self.log)
 
     def test_bond_to_a_particle_that_is_gone(self):
         """The error of LAMMPS; on two ranks that of the lower one, where all of its partners are."""
