@@ -65,6 +65,8 @@ def stress(rng, name, every, fixes, scene):
 
 
 def grid(rng, name, every, fixes, scene):
+    if "tilted" in scene.traits:
+        return []
     return [f"compute {name} all coarse/grid 10 10 10 1.25 fraction", f"dump {name} all grid {every} fields.{name} c_{name}:grid:data"]
 
 

@@ -40,14 +40,15 @@ def _pressures(rng, periodic):
 
 def driven(rng, scene):
     """The same with a box that changes. Traits: `deform`; `pressure` where it follows sums with rounding; `speeds` where Talus knows
-    those of sides, and LAMMPS does not."""
+    those of sides, and LAMMPS does not; `tilted` where it is triclinic."""
     periodic = _periodic(scene)
     if rng.random() < 0.25:
         fix = _pressures(rng, periodic)
         return scene.but(physics=(*scene.physics, fix), traits=scene.traits | {"deform", "pressure"} | _speeds(fix))
     fix, tilted = _sides(rng, periodic)
     box = (*scene.box, line("change_box all triclinic")) if tilted else scene.box
-    return scene.but(box=box, physics=(*scene.physics, fix), traits=scene.traits | {"deform"} | _speeds(fix))
+    traits = {"deform"} | _speeds(fix) | ({"tilted"} if tilted else set())
+    return scene.but(box=box, physics=(*scene.physics, fix), traits=scene.traits | traits)
 
 
 def _speeds(fix):
