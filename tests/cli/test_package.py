@@ -150,6 +150,10 @@ class Packages(unittest.TestCase):
         line = r"^lid at 0\.0\d+ m, -?\d+\.\d+ N of the grains$"
         self.assertEqual(re.findall(line, compiled, re.M), re.findall(line, python, re.M), compiled)
         self.assertTrue(re.findall(line, python, re.M), python)
+        copy = shutil.copytree(os.path.join(prefix, "share", "talus"), os.path.join(short, "talus"))
+        status, said = run(["python3", "blade.py", "--speed", "0.4", "--way", "0.004"], env, cwd=os.path.join(copy, "examples", "tutorial"))
+        self.assertEqual(status, 0, said)
+        self.assertEqual(len(re.findall(r"^Result: .* against \d+\.\d+ N", said, re.M)), 2, said)
 
 
 class Systems(unittest.TestCase):
