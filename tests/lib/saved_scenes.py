@@ -216,6 +216,10 @@ SCENES = {
                   "fix g all gravity 10 vector 0.3 0 -1\n"
                   "fix floor all wall/gran granular hertz 4000 40 tangential linear_history 2000 1.0 0.5 heat area 0.5 "
                   "zplane 0 NULL temperature 2\n", columns="c_t[1] c_t[2]", words=SUFFIX, write=tossed),
+    "liquid": Scene(start("p p f") + "fix liquid all property/atom d_liquid ghost yes\nvariable wet atom \"(x > 4)*0.05*radius^2\"\n"
+                    "set group all d_liquid v_wet\ncompute l all property/atom d_liquid\n" +
+                    pair(LAW + " adhesion willett 0.3 20 fraction 0.01 share 1") + MOVE +
+                    f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", columns="c_l", write=tossed),
     "balanced": Scene(start(more="comm_style tiled") + pair() + MOVE + walls() + "fix even all balance 50 1.0 rcb\n", write=tossed),
     "tilted": Scene(start("p p f", read="read_data grains\nchange_box all triclinic\nchange_box all xy final 1.5 remap units box") +
                     pair() + MOVE + f"fix floor all large/body plane 0 0 0 0 0 1 contact {LAW}\n", write=tossed),

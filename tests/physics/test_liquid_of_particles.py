@@ -1,14 +1,14 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: timeout=240
 """Bridges of the liquid that particles have: a pair that is drawn apart twice, against the equations of the page and against
-bridges of given volume; grains that are shaken, against a slow twin; what is refused."""
+bridges of given volume; energy; grains that are shaken, against a slow twin; what is refused."""
 
 import itertools
 import math
 import random
 import unittest
 
-from talus_testing import SceneCase, Sphere, begin, read_dump, write_sphere_data
+from talus_testing import SceneCase, Sphere, begin, read_dump, thermo, write_sphere_data
 
 RADII, LIQUID = (1.0e-3, 1.7e-3), (3.0e-12, 8.0e-13)
 TENSION, THETA, SPEED = 0.05, 30, 0.1
@@ -190,6 +190,40 @@ class Shaken(SceneCase):
         self.assertGreater(broken, 100)
         self.assertGreater(wet[1], wet[0])
         self.assert_close(math.fsum(frames[-1].column("d_liquid").values()), total, 1e-13)
+
+
+IMPACT = begin("si", law="hertz 1e6 0.0 adhesion {adhesion}", skin=1e-3, dt=5e-7) + HAVE + f"""
+set atom 1 d_liquid {LIQUID[0]!r}
+set atom 2 d_liquid {LIQUID[1]!r}
+fix step all nve/sphere/symplectic start half
+compute s all penalty/stats
+compute k all ke
+thermo_style custom step c_k c_s[4] c_s[5] c_s[6]
+thermo_modify format float %.17g norm no
+thermo 40
+run 60000
+"""
+
+
+class Energy(SceneCase):
+
+    def test_what_an_impact_loses(self):
+        """The work of the force up to rupture, of both models that of the bridge of given volume."""
+        volume, lost = volume_of(RADII, LIQUID, 1, 1e-11), {}
+        for model in "willett", "rabinovich":
+            for words in "1e-11 share 1", f"{volume!r}":
+                write_sphere_data(self.path("data"), ((-2e-2, 2e-2),) * 3,
+                                  [Sphere((s * (r + 1e-5), 0, 0), (-s * 0.06, 0, 0), density=2500, diameter=2 * r)
+                                   for s, r in zip((-1, 1), RADII, strict=True)])
+                rows = thermo(self.run_lammps(IMPACT.format(adhesion=f"{model} {TENSION} {THETA} volume {words}")).log)
+                totals = [row["c_k"] + row["c_s[4]"] + row["c_s[5]"] + row["c_s[6]"] for row in rows]
+                error = max(abs(total - totals[0]) for total in totals) / totals[0]
+                print(f"\n{model} volume {words}: dissipated {rows[-1]['c_s[5]']:.6g}, error of the sum {error:.1e}")
+                self.assertLess(error, 2e-5)
+                self.assertEqual(rows[-1]["c_s[4]"], 0)    # they have come apart
+                lost[model, "share" in words] = rows[-1]["c_s[5]"]
+            self.assertGreater(lost[model, True], 0.01 * rows[0]["c_k"])
+            self.assert_close(lost[model, True], lost[model, False], 1e-9)
 
 
 class Refused(SceneCase):
