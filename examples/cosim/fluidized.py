@@ -270,10 +270,10 @@ def plot(path, stages, bed):
         drawing.curve([(0.01 * k, THEORY.ergun(bed.voidage, 0.01 * k * bed.umf, bed.d) / at_umf) for k in range(112)])
         drawing.curve([(0.0, 1.0), (most, 1.0)])
         drawing.dots([(stage.velocity, stage.drop) for stage in stages], "#1f5fa8")
-        drawing.text(drawing.x(0.5), drawing.y(0.2), "Ergun", color="#666")
+        drawing.text(drawing.x(0.5), drawing.y(0.2), "Ergun, voidage at rest", color="#666")
         drawing.text(drawing.x(0.02), drawing.y(1.03), "weight in air", color="#666")
         drawing.panel("the same at the floor, last stage", "time (s)", lambda t: t / end, lambda drop: drop / 2.0,
-                      [(k * end / 4, f"{k * end / 4:.2g}") for k in range(5)], [(k / 2, f"{k / 2:g}") for k in range(5)])
+                      [(k / 10, f"{k / 10:g}") for k in range(int(10 * end) + 1)], [(k / 2, f"{k / 2:g}") for k in range(5)])
         drawing.curve([(0.0, 1.0), (end, 1.0)])
         drawing.line([(drawing.x((n + 0.5) * bed.dt), drawing.y(min(drop, 2.0))) for n, drop in enumerate(bed.drops)], "#1f5fa8")
         drawing.close()

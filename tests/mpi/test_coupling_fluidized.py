@@ -108,7 +108,7 @@ class Fluidized(CoupledCase):
         self.assertLess(number(r"but for (\S+) %"), 1.0)
         self.assertLess(number(r"that came (\S+) is astray"), 1e-8)
         self.assertLess(number(r"grain by grain, (\S+)$"), 1e-10)
-        self.assertLess(rows[0]["height"] * 1.1, rows[-1]["height"])
+        self.assertLess(rows[0]["height"] * 1.03, rows[-1]["height"])
         self.assertLess(rows[-1]["floor"], 0.2)
         for name in ("grains", "air"):
             series = xml.etree.ElementTree.parse(self.path(f"paraview/{name}.pvd"))
