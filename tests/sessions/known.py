@@ -5,6 +5,8 @@ import re
 
 # (relation, pattern of the fault, pattern of the input, what it is)
 KNOWN = [
+    ("same_bits", "^other bits", r"rigid/small[\s\S]*fix drive all deform.* remap x",
+     "clumps whose members are on two ranks, in a box that is driven with remap x: forces differ in the last digits"),
 ]
 
 

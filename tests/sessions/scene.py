@@ -45,9 +45,9 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True)
 class Scene:
-    """start: lines up to the box; box: lines that make it; physics: what is given again after read_restart; program: what happens
-    then, ("run", steps) or commands; bonds: (type, i, j) with i, j from 1, the places in grains; once: lines behind the physics that
-    are not given again, since restart files have what they say.
+    """start: lines up to the box; box: two lines that make it, and what changes it; physics: what is given again after read_restart;
+    program: what happens then, ("run", steps) or commands; bonds: (type, i, j) with i, j from 1, the places in grains; once: lines
+    behind the physics that are not given again, since restart files have what they say.
 
     columns: more values of each particle; vectors: (fix, length), told at the end; traits: words on which relations depend; words: of
     the command line."""
@@ -74,7 +74,7 @@ class Scene:
     def beginning(self):
         """Lines up to the physics."""
         if "read" in self.traits:
-            return [text(words) for words in (*self.start, line("read_data", DATA))]
+            return [text(words) for words in (*self.start, line("read_data", DATA), *self.box[2:])]
         made = [words for tag, grain in enumerate(self.grains, start=1) for words in grain.lines(tag)]
         last = len(self.bonds) - 1
         made += [line("create_bonds single/bond", bond, "special", "yes" if n == last else "no") for n, bond in enumerate(self.bonds)]
