@@ -197,6 +197,8 @@ def draw(rng):
     if restart_in_pause in programs:
         scene = with_pause(rng, scene)
     settings = AMONG_SUMS if "pressure" in scene.traits else SETTINGS if "periodic" in scene.traits else (*SETTINGS, neighbors)
+    if "tilted" in scene.traits:    # a rebuild rounds positions there, and run_style verlet/stock has others
+        settings = tuple(one for one in settings if one is not exchange)
     chosen = list(dict.fromkeys(rng.choices(settings, k=rng.choice((0, 1, 1, 2, 3)))))
     if programs and (not chosen or rng.random() < 0.4):
         chosen.append(rng.choice(programs))
