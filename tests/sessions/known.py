@@ -7,6 +7,8 @@ import re
 KNOWN = [
     ("same_bits", "^other bits", r"rigid/small[\s\S]*fix drive all deform.* remap x",
      "clumps whose members are on two ranks, in a box that is driven with remap x: forces differ in the last digits"),
+    ("same_bits", "^other bits", r"triclinic[\s\S]*fix drive all deform.* (xy|xz|yz) erate (1[5-9]|2\d)",
+     "triclinic boxes that flip within the run, on other ranks: positions differ in the last digit"),
 ]
 
 
