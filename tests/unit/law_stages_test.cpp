@@ -71,7 +71,7 @@ TEST(Laws, HaveDistinctNamesAndKnowTheirStage)
     }
     EXPECT_EQ(find_law(stage, "no such law"), nullptr);
   }
-  EXPECT_EQ(count, 71);
+  EXPECT_EQ(count, 73);
 }
 
 TEST(Laws, RowsHoldTheCoefficientsOfAllStagesOneBehindTheOther)
