@@ -119,7 +119,7 @@ def voigt(places, bonds, volume):
 
 
 class Test:
-    """strength: peak of the stress; young: modulus; voigt: its bound; curve: (strain, stress). sign: 1 pulls, -1 presses."""
+    """strength: peak of the stress; young: modulus; voigt: its bound; curve: (strain in %, stress). sign: 1 pulls, -1 presses."""
 
     def __init__(self, bench, sign, seed, cores):
         rate = sign * bench.size(4e-4, 1e-3)
@@ -134,7 +134,7 @@ class Test:
         (pressure,) = result.printed("Elastic")[0]
         self.young = -pressure / gauge
         rows = numpy.loadtxt(os.path.join(folder, "stress.txt"))
-        self.curve = [(abs(rate) * STEP * step, -sign * pressure) for step, pressure, _ in rows]
+        self.curve = [(100 * abs(rate) * STEP * step, -sign * pressure) for step, pressure, _ in rows]
         self.strength = max(stress for _, stress in self.curve)
         bench.note(f"{'pulled' if sign > 0 else 'pressed'}, packing {seed}: {self.count:.0f} spheres, {bonds:.0f} bonds, strength "
                    f"{self.strength:.2f}, modulus {self.young:.0f}, by Voigt {self.voigt:.0f}")
@@ -195,7 +195,8 @@ def draw(plt, plate, pressed, pulled):
     _, x, found, expected = plate
     order = numpy.argsort(x)
     for k, name in enumerate(("across the load", "along the load")):
-        left.plot(x[order], found[k][order], **plot.style(k, linestyle="none"), label=name)
+        some = order[::4]
+        left.plot(x[some], found[k][some], **plot.style(k, linestyle="none"), label=name)
         left.plot(x[order], expected[k][order], **plot.style(k, marker=None))
     left.set_xlabel("x/R")
     left.set_ylabel("stress, 2 P/(pi D)")
@@ -203,6 +204,6 @@ def draw(plt, plate, pressed, pulled):
     for k, (name, tests) in enumerate((("pressed", pressed), ("pulled", pulled))):
         for n, test in enumerate(tests):
             right.plot(*zip(*test.curve), **plot.style(k, marker=None), label=None if n else name)
-    right.set_xlabel("strain")
+    right.set_xlabel("strain (%)")
     right.set_ylabel("stress")
     right.legend()

@@ -263,16 +263,17 @@ def plot(path, stages, bed):
     most, end = 1.05 * max(stage.velocity for stage in stages), len(bed.drops) * bed.dt
     with open(path, "w") as file:
         drawing = Drawing(file, 2)
-        drawing.panel("pressure drop / weight of the bed", "velocity / minimum fluidization velocity",
+        drawing.panel("pressure / weight: whole bed (blue), inside (red)", "velocity / minimum fluidization velocity",
                       lambda share: share / most, lambda drop: drop / 1.3,
                       [(k / 2, f"{k / 2:g}") for k in range(int(2 * most) + 1)], [(k / 4, f"{k / 4:g}") for k in range(6)])
         at_umf = THEORY.ergun(bed.voidage, bed.umf, bed.d)
         drawing.curve([(0.01 * k, THEORY.ergun(bed.voidage, 0.01 * k * bed.umf, bed.d) / at_umf) for k in range(112)])
         drawing.curve([(0.0, 1.0), (most, 1.0)])
         drawing.dots([(stage.velocity, stage.drop) for stage in stages], "#1f5fa8")
-        drawing.text(drawing.x(0.5), drawing.y(0.2), "Ergun, voidage at rest", color="#666")
+        drawing.dots([(stage.velocity, stage.gradient / THEORY.weight(stage.voidage)) for stage in stages if stage.velocity < 1.0], "#b03030")
+        drawing.text(drawing.x(0.5), drawing.y(0.2), "Ergun, voidage inside at rest", color="#666")
         drawing.text(drawing.x(0.02), drawing.y(1.03), "weight in air", color="#666")
-        drawing.panel("the same at the floor, last stage", "time (s)", lambda t: t / end, lambda drop: drop / 2.0,
+        drawing.panel("pressure at the floor / weight, last stage", "time (s)", lambda t: t / end, lambda drop: drop / 2.0,
                       [(k / 10, f"{k / 10:g}") for k in range(int(10 * end) + 1)], [(k / 2, f"{k / 2:g}") for k in range(5)])
         drawing.curve([(0.0, 1.0), (end, 1.0)])
         drawing.line([(drawing.x((n + 0.5) * bed.dt), drawing.y(min(drop, 2.0))) for n, drop in enumerate(bed.drops)], "#1f5fa8")

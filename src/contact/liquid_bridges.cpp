@@ -26,7 +26,7 @@ void LiquidBridges::set(const LawTable &table)
   std::vector<BridgeTerms> found(static_cast<std::size_t>(types) * types);
   for (int row = 0; row < types * types; row++) {
     const ContactLaw &law = table.law(row);
-    if (!law.cohesion().reads("share")) continue;
+    if (!law.cohesion().shares_liquid) continue;
     const auto number = [&](const char *name) {
       return law.coefficient(Stage::COHESION, name, table.coefficients(row));
     };

@@ -101,8 +101,8 @@ static ContactResponse with_damping_of_cohesion(const ContactLaw &law,
     s.velocity = velocity;
     s.normal_velocity = velocity.x;
     s.force = {0.0, 0.0, 0.0};
-    // a bridge of the liquid of particles: there is one, and how large it is does not matter
-    double history[ContactBatch::history_size] = {law.cohesion().reads("share") ? 1.0 : 0.0};
+    // of a bridge of the liquid of particles its volume: any above 0, which viscous forces do not read
+    double history[ContactBatch::history_size] = {1.0};
     law.cohesion().one(s, law.coefficients(Stage::COHESION, row), history, 0.0);
     return s.force;
   };

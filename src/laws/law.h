@@ -90,7 +90,8 @@ struct Law {
   bool delayed;         ///< rolling, twisting: reads delayed_force
   bool hysteretic;      ///< normal: more work is done on it than it stores
   bool reads_sums_alone;    ///< cohesion: of what other stages find, nothing but their sums
-  double exponent;          ///< normal: elastic force ~ overlap^exponent
+  bool shares_liquid;    ///< cohesion: bridges have the liquid of particles, see liquid_bridges.h
+  double exponent;       ///< normal: elastic force ~ overlap^exponent
   bool lever_arms;    ///< tangential: lever arms end in the middle of the overlap, not at surfaces
   bool cohesive;      ///< normal: adhesion of its own
   bool allows_cohesion;         ///< damping: may follow such a normal law

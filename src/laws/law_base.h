@@ -32,7 +32,7 @@ struct LawBase {
   static constexpr bool holds = false, delayed = false, like_stock = false;
   static constexpr bool lever_arms = false, cohesive = false, allows_cohesion = true;
   static constexpr bool lasts_beyond_contact = false, second_order = false, hysteretic = false;
-  static constexpr bool reads_sums_alone = false;
+  static constexpr bool reads_sums_alone = false, shares_liquid = false;
   static constexpr const char *takes_no_kt = nullptr, *takes_no_gt = nullptr, *needs_gt = nullptr;
   static constexpr int odd_history = 0, even_history = 0;
   /// Tangential, rolling, twisting: what integrators of second order take in its place, nullptr if there

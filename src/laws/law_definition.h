@@ -219,6 +219,7 @@ template <class L> constexpr Law make_law()
   law.lasts_beyond_contact = L::lasts_beyond_contact;
   law.hysteretic = L::hysteretic;
   law.reads_sums_alone = L::reads_sums_alone;
+  law.shares_liquid = L::shares_liquid;
   law.second_order = L::second_order;
   law.like_stock = L::like_stock;
   law.order_2 = L::order_2;

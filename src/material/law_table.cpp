@@ -92,6 +92,11 @@ bool LawTable::conducts_heat() const
   return any([](const ContactLaw &law) { return law.conducts_heat(); });
 }
 
+bool LawTable::shares_liquid() const
+{
+  return any([](const ContactLaw &law) { return law.cohesion().shares_liquid; });
+}
+
 bool LawTable::second_order() const
 {
   return any([](const ContactLaw &law) { return law.tangential().second_order; });

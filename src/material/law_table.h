@@ -59,6 +59,8 @@ class LawTable {
   bool has_twisting_torques() const;
   bool lasts_beyond_contact() const;
   bool conducts_heat() const;
+  /// Bridges have the liquid of particles.
+  bool shares_liquid() const;
   /// Changes of velocities are read.
   bool second_order() const;
   /// How far a contact of two radii lasts beyond zero overlap (length), 0 if it does not.

@@ -75,6 +75,13 @@ bool PairCoeffs::conducts_heat() const
                      [](const Entry &one) { return one.set && one.spec.law.conducts_heat(); });
 }
 
+bool PairCoeffs::shares_liquid() const
+{
+  return std::any_of(entries.begin(), entries.end(), [](const Entry &one) {
+    return one.set && one.spec.law.cohesion().shares_liquid;
+  });
+}
+
 bool PairCoeffs::reaches() const
 {
   return std::any_of(entries.begin(), entries.end(),

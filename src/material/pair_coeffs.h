@@ -59,7 +59,9 @@ class PairCoeffs {
   std::string note_on(int i, int j) const;
   /// Any pair that is set conducts heat.
   bool conducts_heat() const;
-  /// Also through gaps.
+  /// Bridges of any pair that is set have the liquid of particles.
+  bool shares_liquid() const;
+  /// Heat also through gaps.
   bool reaches() const;
   /// How far a contact of particles with these radii lasts beyond zero overlap (length).
   double pulloff_distance(int i, int j, double radius_i, double radius_j) const;

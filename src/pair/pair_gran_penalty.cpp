@@ -73,7 +73,7 @@ void PairGranPenalty::init_style()
   check_host();
   system->setup_state().expect_new_laws();
   system->init_pair_style();
-  comm_forward = system->masses().needed() + shares_liquid();
+  comm_forward = system->masses().needed() + system->laws().shares_liquid();
   const std::string lists = system->neighbors().reason_for_lammps_lists();
   if (!lists.empty() && system->laws().reaches())
     error->all(FLERR,
@@ -104,20 +104,12 @@ void PairGranPenalty::check_host()
   if (system->laws().conducts_heat() && !(atom->temperature_flag && atom->heatflow_flag))
     error->all(FLERR, "Pair style gran/penalty: heat is conducted between particles that have a "
                       "temperature: add 'fix ID all property/atom temperature heatflow ghost yes'");
-  if (shares_liquid() && !particles_have_liquid(*atom))
+  if (system->laws().shares_liquid() && !particles_have_liquid(*atom))
     error->all(FLERR, "Pair style gran/penalty: bridges with 'share' have the liquid of particles: "
                       "add 'fix ID all property/atom d_liquid ghost yes', and liquid, as by 'set "
                       "group all d_liquid V'");
   const std::string problem = unsupported_settings();
   if (!problem.empty()) error->all(FLERR, "Pair style gran/penalty: {}: remove it", problem);
-}
-
-bool PairGranPenalty::shares_liquid() const
-{
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i; j <= atom->ntypes; j++)
-      if (setflag[i][j] && system->laws().law(i, j).cohesion().reads("share")) return true;
-  return false;
 }
 
 double PairGranPenalty::init_one(int i, int j)
@@ -173,7 +165,7 @@ int PairGranPenalty::pack_forward_comm(int n, int *send, double *buf, int, int *
 {
   double *next = buf;
   if (system->masses().needed()) next += pack_masses(n, send, next);
-  if (!shares_liquid()) return static_cast<int>(next - buf);
+  if (!system->laws().shares_liquid()) return static_cast<int>(next - buf);
   const double *liquid = liquid_of_particles(*atom);
   for (int k = 0; k < n; k++) *next++ = liquid[send[k]];
   return static_cast<int>(next - buf);
@@ -186,7 +178,7 @@ void PairGranPenalty::unpack_forward_comm(int n, int first, double *buf)
     unpack_masses(n, first, next);
     next += n;
   }
-  if (shares_liquid()) std::copy(next, next + n, liquid_of_particles(*atom) + first);
+  if (system->laws().shares_liquid()) std::copy(next, next + n, liquid_of_particles(*atom) + first);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -42,8 +42,6 @@ class PairGranPenalty : public PairOfSystem<Pair> {
  private:
   void allocate();
   void check_host();
-  /// Bridges of some types have the liquid of particles.
-  bool shares_liquid() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -2,7 +2,6 @@
 
 #include "run/overlap_hazards.h"
 
-#include "contact/liquid_bridges.h"
 #include "system/host/fix_list.h"
 #include "system/step/granular_system.h"
 
@@ -39,9 +38,7 @@ std::string Talus::hazard_of_overlap(LAMMPS *lmp, bool pairs_computed)
   if (!pairs_computed) return "'pair_modify compute no' is set";
   if (!system->exchange().direct())
     return "the exchange is the one of LAMMPS: " + system->exchange().reason_for_stock();
-  Talus::LiquidBridges bridges;
-  bridges.set(system->law_table());
-  if (bridges.any())
+  if (system->law_table().shares_liquid())
     return "bridges have the liquid of particles, which is sent before forces are computed";
   for (Fix *fix : Talus::fix_list(*lmp->modify)) {
     if ((lmp->modify->get_fix_mask(fix) & FixConst::PRE_FORCE) && may_read_proxies(fix))

@@ -33,7 +33,8 @@ FLUID = """
 SIDE, BOX = 3, 0.06
 x = numpy.array([[(i + 0.5) * BOX / SIDE for i in (n % SIDE, n // SIDE % SIDE, n // SIDE**2)] for n in range(SIDE**3)])
 FIRST = {"Velocity": numpy.tile([0.5, -0.2, 0.1], (SIDE**3, 1)) * (1 + x[:, :1] / BOX),
-         "Volume": numpy.full(SIDE**3, (BOX / SIDE)**3)}
+         "Volume": numpy.full(SIDE**3, (BOX / SIDE)**3),
+         "Gradient": numpy.tile([0.0, 30.0, -2.0], (SIDE**3, 1))}
 DENSITY = 1.2
 
 def solve(state, got):
@@ -126,7 +127,7 @@ with Partner(lmp) as partner:
             got = found
 """ + FINISH.replace("\n", "\n    ") + END
 
-ACT_FLUID = """fluid.put(told["Velocity"].ravel())
+ACT_FLUID = """fluid.put(told["Velocity"].ravel(), told["Gradient"].ravel(), (0.0, 0.0, -9.81))
             fluid.grains("exchange")
             partner.advance(STEPS)
             found = {"SolidFraction": numpy.array(fluid.grains("solid"))}
@@ -171,12 +172,13 @@ velocity all set 0.1 0 -2
 thermo 0
 """
 
-DATA = {"Fluid-Mesh": {"Velocity": ["Fluid-Mesh", "Other", 3], "Volume": ["Fluid-Mesh", "Other", 1],
+DATA = {"Fluid-Mesh": {"Velocity": ["Fluid-Mesh", "Other", 3], "Volume": ["Fluid-Mesh", "Other", 1], "Gradient": ["Fluid-Mesh", "Other", 3],
                        "SolidFraction": ["Fluid-Mesh", "Grains", 1], "GrainVelocity": ["Fluid-Mesh", "Grains", 3],
                        "Drag": ["Fluid-Mesh", "Grains", 3], "DragCoefficient": ["Fluid-Mesh", "Grains", 1]},
         "Sheet-Mesh": {"Displacement": ["Sheet-Mesh", "Other", 3], "Force": ["Sheet-Mesh", "Grains", 3]}}
 LAW = '"tophat 0", "gidaspow", 1.2, 1.8e-5'
-COUPLING = {"Fluid-Mesh": f'grains.fluid("Fluid-Mesh", (0, 0, 0), (0.06,) * 3, {LAW})',
+GRADIENT = 'gravity=(0.0, 0.0, -9.81), pressure_gradient="Gradient"'
+COUPLING = {"Fluid-Mesh": f'grains.fluid("Fluid-Mesh", (0, 0, 0), (0.06,) * 3, {LAW}, {GRADIENT})',
             "Sheet-Mesh": 'grains.surface("Sheet-Mesh", "sheet")'}
 PREPARE = {"Fluid-Mesh": 'fluid = partner.fluid_cells(x.ravel(), FIRST["Volume"], "tophat 0")\n'
                          '    fluid.drag_law("gidaspow", 1.2, 1.8e-5)',
@@ -244,6 +246,11 @@ class Coupled(CoupledCase):
                         for a, b in zip(sum(found, []), sum(expected, [])):
                             self.assertAlmostEqual(float.fromhex(a), float.fromhex(b), delta=1e-12)
             self.assertNotEqual(expected, self.alone(mesh), "iterations change nothing: the case is too weak")
+
+    def test_equal_volumes_and_data_that_nobody_reads(self):
+        found = self.two_programs("Fluid-Mesh", coupling=f'grains.fluid("Fluid-Mesh", (0, 0, 0), (0.06,) * 3, {LAW}, {GRADIENT}, '
+                                                         "volume=(0.06 / 3)**3, grain_velocity=None, coefficient=None)")
+        self.assertEqual(found, self.alone("Fluid-Mesh"))
 
     def test_shorter_exchanges_than_windows(self):
         found = self.two_programs("Fluid-Mesh", every="every=4")

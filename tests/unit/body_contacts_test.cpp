@@ -215,7 +215,7 @@ TEST_P(BodyContactsTest, WhatIsToldIsWhatActed)
   compute(false);
   const std::vector<Vector> unasked = force;
   ComputedContacts told;
-  told.keep_rows(true);
+  told.begin(true);
   BodyStep step = step_of(false);
   step.for_outputs = &told;
   force.assign(p.size(), Vector{});
@@ -252,7 +252,7 @@ TEST_P(BodyContactsTest, WhereNobodyListsContactsTheirEnergyIsKept)
   find();
   compute(true);
   ComputedContacts listed, unlisted;
-  listed.keep_rows(true);
+  listed.begin(true);
   BodyStep step = step_of(false);
   for (ComputedContacts *to : {&listed, &unlisted}) {
     step.for_outputs = to;
@@ -327,7 +327,7 @@ TEST_P(BodyContactsTest, ASurfaceThatMovesByItself)
   const Described moving(*shape, {0.5, -2.0, 0.25}, 0.0);
   find();
   ComputedContacts told;
-  told.keep_rows(true);
+  told.begin(true);
   BodyStep step = step_of(true);
   step.for_outputs = &told;
   force.assign(p.size(), Vector{});

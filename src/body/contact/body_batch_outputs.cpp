@@ -78,7 +78,7 @@ ContactReport BodyBatch::report_of_lane(int lane) const
 
 void BodyBatch::complete_records()
 {
-  const bool listed = task->step.for_outputs->keeps_rows();
+  const bool listed = task->step.for_outputs->are_listed();
   for (int lane = 0; lane < filled; lane++) {
     if (law.reaches() && !(before_laws[lane].overlap > 0.0)) continue;
     const ContactReport one = report_of_lane(lane);

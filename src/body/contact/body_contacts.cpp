@@ -142,7 +142,6 @@ BodyLoad BodyContacts::compute(const LargeBodyShape &shape, const BodyFrame &fra
   if (step.exact) step.exact->clear();
   if (step.touched) step.touched->clear();
   if (step.corners) step.corners->clear();
-  if (step.for_outputs) step.for_outputs->begin();
   for (const auto &batch : batches) {
     load.add(batch->load);
     if (step.exact) step.exact->add(batch->exact);

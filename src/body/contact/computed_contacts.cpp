@@ -17,8 +17,9 @@ ContactReport ComputedContact::with_energy(const LawTable &laws, double dt) cons
   return found;
 }
 
-void ComputedContacts::begin()
+void ComputedContacts::begin(bool are_listed)
 {
+  listed = are_listed;
   rows.clear();
   stored = 0.0;
 }

@@ -3,10 +3,11 @@
 // Contacts of particles with one large body or wall as the last computation of forces has found
 // them, for outputs. The computation writes them as it goes, in steps in which somebody may ask;
 // asking only reads them. So what is told is what acted, at the positions that were used, whatever
-// has moved since; and it does not matter whether or how often somebody asks. Where nobody lists
-// contacts only their energy is kept, which outputs of a body have.
+// has moved since, and outputs change nothing. Where no command lists contacts only their energy is
+// kept, which outputs of a body have.
 //
-//   a computation of forces   begin(), add()
+//   a step                    begin()
+//   a computation of forces   add()
 //   outputs                   for_each(), stored_energy()
 
 #ifndef TALUS_BODY_CONTACT_COMPUTED_CONTACTS_H
@@ -34,12 +35,9 @@ struct ComputedContact {
 
 class ComputedContacts {
  public:
-  /// Before a step: whether somebody lists contacts.
-  void keep_rows(bool are_listed) { listed = are_listed; }
-  bool keeps_rows() const { return listed; }
-  /// Forgets the contacts of the step before.
-  void begin();
-  void forget() { begin(); }
+  /// A step begins: those of the one before are forgotten. `are_listed`: somebody lists contacts.
+  void begin(bool are_listed);
+  bool are_listed() const { return listed; }
   /// Takes the contacts of a thread behind those that are there, and what they store.
   void add(std::vector<ContactReport> &&more, double energy);
   void add(const ContactReport &one);

@@ -75,14 +75,14 @@ class AcceleratedWall : public Stock, public SystemFix, private HostWall::Arrays
 
   void post_force(int vflag) override
   {
-    wall.begin_step();
+    wall.begin_step(this->peratom_flag != 0);
     if (!stock_reason.empty()) {
       Stock::post_force(vflag);
       return;
     }
     place();
     if (wall.list_if_needed(displacement())) are_listed();
-    wall.compute(heat(), this->peratom_flag != 0);
+    wall.compute(heat());
     if (!this->peratom_flag || !system->step().may_be_asked()) return;
     this->clear_stored_contacts();
     wall.for_each_contact([this](const ContactReport &one) { keep_contact(one); });

@@ -74,6 +74,7 @@ template <class Real> struct LiquidRow {
 template <class Model> struct LiquidBridgeOfParticles : LiquidBridge<Model> {
   using Given = LiquidBridge<Model>;
   static constexpr const char *name = Model::of_particles, *label = Model::label_of_particles;
+  static constexpr bool shares_liquid = true;
   static constexpr int even_history = 1;
   static constexpr std::nullptr_t read = nullptr;
   template <class Real> using Row = LiquidRow<Real>;

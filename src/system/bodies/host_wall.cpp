@@ -132,10 +132,15 @@ void HostWall::find_masses()
 
 /* ---- forces ---- */
 
+void HostWall::begin_step(bool listed)
+{
+  for_outputs.begin(listed || system.account().has_observers());
+}
+
 /* As in LAMMPS, histories stand still while a run is set up, but what slips is set back; and where there
    may be several contacts none lasts beyond zero overlap. */
 
-void HostWall::compute(const BodyHeat &heat, bool listed)
+void HostWall::compute(const BodyHeat &heat)
 {
   constexpr std::size_t worth_a_thread = 100;    // candidates
   const bool accounts = system.account().is_asked();
@@ -150,7 +155,6 @@ void HostWall::compute(const BodyHeat &heat, bool listed)
   step.heat = heat;
   step.account = accounts ? &account : nullptr;
   if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
-  for_outputs.keep_rows(listed || system.account().has_observers());
   contacts.compute(*surface, at_rest, system.step().particles(), step);
   if (accounts) system.account().add(account.sum);
 }

@@ -61,15 +61,15 @@ class HostWall : protected LAMMPS_NS::Pointers {
   void clear_row(int particle);
 
   void forget_list() { is_listed = false; }
-  /// Contacts for outputs are those of the step that follows, if it has any.
-  void begin_step() { for_outputs.forget(); }
+  /// Contacts for outputs are those of the step that follows, if it has any. `listed`: the fix itself asks for them.
+  void begin_step(bool listed);
   /// `displacement`: how far a point of the surface has gone at most since particles were listed. Returns
   /// whether they have been listed anew.
   bool list_if_needed(double displacement);
   /// See BodyContacts, of those that are listed.
   Eigen::AlignedBox3d bounds_of_search() const;
-  /// Adds the forces of a step to the particles. `listed`: its fix asks for the contacts.
-  void compute(const BodyHeat &heat, bool listed);
+  /// Adds the forces of a step to the particles.
+  void compute(const BodyHeat &heat);
 
   /// See SystemFix::for_each_contact().
   void for_each_contact(const ComputedContacts::VisitContact &visit) const

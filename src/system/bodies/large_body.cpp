@@ -191,7 +191,7 @@ std::string LargeBody::needs_arrays() const
 
 BodyStep LargeBody::begin_forces(bool advance)
 {
-  for_outputs.forget();
+  for_outputs.begin(system.account().has_observers());
   BodyStep step;
   step.dt = update->dt;
   step.lag = system.integrators().lag();
@@ -203,7 +203,6 @@ BodyStep LargeBody::begin_forces(bool advance)
   if (body_surface->records()) step.touched = body_surface->touched();
   if (moved_vertices) step.corners = moved_vertices->touched();
   if (system.step().may_be_asked()) step.for_outputs = &for_outputs;
-  for_outputs.keep_rows(system.account().has_observers());
   step.heat = heat();
   return step;
 }

@@ -30,7 +30,7 @@ void LargeBody::set_laws()
   table.reset(atom->ntypes);
   for (int i = 1; i <= atom->ntypes; i++) {    // only the rows (t, t) are used
     ContactSides sides = sides_of(i);
-    if (sides.law().cohesion().reads("share"))
+    if (sides.law().cohesion().shares_liquid)
       error->all(
           FLERR,
           "Fix large/body {}: a body has no liquid to 'share': leave 'share' out of its law, "
