@@ -111,6 +111,9 @@ class _Fluid:
 
     def begin(self):
         self.ids, x = self.owner.precice.get_mesh_vertex_ids_and_coordinates(self.mesh)
+        if self.owner.rank == 0 and not len(self.ids):
+            raise ValueError(f"talus_precice: mesh '{self.mesh}' has no vertex between {self.box[0]} and {self.box[1]}: give corners of "
+                             "a box that contains the cells of the fluid")
         x = numpy.asarray(x, float).reshape(-1, 3)
         volume = numpy.full(len(x), self.volume) if self.volume is not None else self._read("volume", 0.0)
         self.fluid = self.owner.partner.fluid_cells(x.ravel(), volume, self.kernel)

@@ -261,7 +261,9 @@ class Coupled(CoupledCase):
                 ('grains.fluid("Fluid-Mesh", (0,) * 3, (1,) * 3, "tophat 0", "stokes", 1, 1, speed="V")', STEPS * DT,
                  "'speed' is none of velocity, pressure_gradient, volume"),
                 (None, 10.5 * DT, "preCICE asks for a step of 0.00105, which is no whole number of time steps"),
-                ('grains.fluid("Fluid-Mesh", (0,) * 3, (1,) * 3, "tophat 0", "stoks", 1, 1)', STEPS * DT, "stoks")):
+                ('grains.fluid("Fluid-Mesh", (0,) * 3, (1,) * 3, "tophat 0", "stoks", 1, 1)', STEPS * DT, "stoks"),
+                ('grains.fluid("Fluid-Mesh", (1,) * 3, (2,) * 3, "tophat 0", "stokes", 1, 1)', STEPS * DT,
+                 r"mesh 'Fluid-Mesh' has no vertex between \(1, 1, 1\) and \(2, 2, 2\)")):
             for size in 1, 2:
                 with self.subTest(message, ranks=size), self.assertRaisesRegex(AssertionError, message):
                     self.two_programs("Fluid-Mesh", size=size, window=window, coupling=coupling)
