@@ -5,8 +5,6 @@ import re
 
 # (relation, pattern of the fault, pattern of the input, what it is)
 KNOWN = [
-    ("same_bits", "^other bits", r"rigid/small[\s\S]*fix drive all deform.* remap x",
-     "clumps whose members are on two ranks, in a box that is driven with remap x: forces differ in the last digits"),
     ("same_bits", "^other bits", r"triclinic[\s\S]*fix drive all deform.* (xy|xz|yz) erate (1[5-9]|2\d)",
      "triclinic boxes that flip within the run, on other ranks: positions differ in the last digit"),
 ]

@@ -113,6 +113,18 @@ class Clumps(ClumpCase):
                     for frame in frames:
                         self.assert_same_bits(frame, reference[frame.step])
 
+    def test_a_box_that_deforms_takes_all_spheres_along(self):
+        """Also those whose clump belongs to another rank."""
+        deform = "fix drive all deform 1 x erate 0.3 remap x\n"
+        stock = self.simulate(STOCK, np=2, style=deform, before="processors 2 1 1")
+        for move in TALUS, SYMPLECTIC:
+            reference = self.simulate(move, style=deform, expect=None)
+            with self.subTest(move=move):
+                for a, b in zip(self.simulate(move, 2, style=deform, before="processors 2 1 1", expect=None), reference, strict=True):
+                    self.assert_same_bits(a, b)
+            if move == TALUS:
+                self.assertLess(max(max_difference(a, b, MOTION) for a, b in zip(reference, stock, strict=True)), 1e-8)
+
     def test_what_reads_each_step(self):
         """It finds clumps and their spheres complete, while steps go on in the records, also where one moves clumps alone."""
         reading = ("compute spin all property/atom omegax tqy\n"

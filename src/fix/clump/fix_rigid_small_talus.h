@@ -55,6 +55,7 @@ class FixRigidSmallTalus : public FixRigidSmall, public Talus::SystemFix {
   void setup(int) override;
   void initial_integrate(int) override;
   void final_integrate() override;
+  void deform(int) override;
 
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;

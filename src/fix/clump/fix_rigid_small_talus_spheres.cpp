@@ -178,6 +178,20 @@ void FixRigidSmallTalus::make_table()
                style, id);
 }
 
+/* Fix deform with remap x, before and after the box changes: clumps of other ranks, of which spheres are here, move here
+   by themselves. */
+
+void FixRigidSmallTalus::deform(int flag)
+{
+  FixRigidSmall::deform(flag);
+  if (!reason.empty()) return;
+  for (int b = nlocal_body; b < nlocal_body + nghost_body; b++)
+    if (flag == 0)
+      domain->x2lamda(body[b].xcm, body[b].xcm);
+    else
+      domain->lamda2x(body[b].xcm, body[b].xcm);
+}
+
 void FixRigidSmallTalus::pre_neighbor()
 {
   FixRigidSmall::pre_neighbor();
