@@ -58,6 +58,33 @@ HALF_MASS = math.pi / 12
 TOLD = "needs? the speed of the side"
 
 
+# two grains that meet across borders, in a box whose speeds change
+MEET = """
+units lj
+atom_style sphere
+atom_modify map yes
+newton off
+comm_modify vel yes
+boundary p p p
+region box block -0.55535 2.55977 -0.55125 2.54556 -0.55732 2.54937
+create_box 1 box
+change_box all triclinic
+create_atoms 1 single 0.022 0.968 2.045
+create_atoms 1 single 0.034 1.946 1.944
+set group all diameter 1.0 density 1.0
+velocity all set -2.05 3.646 -0.963
+set atom 2 vx 0 vy 0 vz 0
+pair_style gran/penalty
+pair_coeff * * hertz 17071 31.23 tangential multistep NULL NULL 0.25 slider midpoint limit_damping
+timestep 0.0005
+fix step all nve/sphere/symplectic order 2
+fix drive all deform 1 x trate -0.44 xy erate 15.57 remap v
+{outputs}
+run 40
+write_dump all custom end id x y z vx vy vz omegax omegay omegaz modify sort id format float %a
+"""
+
+
 class DrivenBoxes(SceneCase):
 
     def check_across(self, drive, strains, words=("-sf", "talus")):
@@ -77,6 +104,16 @@ class DrivenBoxes(SceneCase):
 
     def test_sides_that_keep_the_volume(self):
         self.check_across(f"fix drive all deform 1 x trate {-RATE} y volume z volume remap v", (-RATE, RATE / 2, RATE / 2))
+
+    def test_outputs_change_no_bit_of_order_2(self):
+        ends = []
+        for outputs in "", "thermo 2\ncompute s all stress/atom NULL\ncompute sum all reduce sum c_s[1]\nthermo_style custom step pxx c_sum\n":
+            for np in 1, 2:
+                self.run_lammps(MEET.format(outputs=outputs), np=np)
+                ends += read_dump(self.path("end"))
+        for end in ends[1:]:
+            self.assert_same_bits(end, ends[0])
+        self.assertGreater(abs(ends[0].column("vx")[2]), 0.1)    # they have met
 
     def test_others_are_told_as_they_are(self):
         for drive in "x erate -0.1", "x trate -0.1", "x final 0.2 7.8", "x vel -0.5", "x wiggle 0.1 1.0", "x delta 0.1 -0.1 y erate 0.05":

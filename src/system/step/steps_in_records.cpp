@@ -83,6 +83,9 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
     return std::string("radii or more vary with atom style ") + atom->atom_style;
   if (!system.pair_style().is_alone() && !system.law_table().has_friction())
     return "the pair style is hybrid, and contacts have no torques";
+  // proxies in the records have changes of velocities that contain those of the borders, and their rounding
+  if (integrators.order() == 2 && domain->deform_vremap)
+    return "contacts of order 2 look at changes of velocities, which borders shift ('remap v')";
   if (neighbor->includegroup || atom->firstgroupname)
     return "neighbor lists or particles are restricted to a group";
   const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
