@@ -193,13 +193,15 @@ static HistoryIndices consecutive_history_indices(const ContactLaw &law)
 }
 
 /// The law without the stage that may follow a function for all others, if it has one: heat, behind a normal law that
-/// finds the circle again, or cohesion that reads nothing of other stages but their sums.
+/// finds the circle again, or cohesion that reads nothing of other stages but their sums. Effective masses are rounded as
+/// approach() finds them, with the radius or without: the same for all stages.
 static ContactLaw before_last_stage(const ContactLaw &law)
 {
   const auto without = [&law](Stage stage) {
     ContactLaw rest = law;
     rest.choose(stage, laws_of(stage).front());
-    return !law.tangential().second_order && rest.has_friction() ? rest : law;
+    const bool alike = !law.tangential().second_order && rest.needs_radius() == law.needs_radius();
+    return alike && rest.has_friction() ? rest : law;
   };
   const bool remembers = law.normal().odd_history + law.normal().even_history > 0;
   if (law.conducts_heat()) return remembers ? law : without(Stage::HEAT);

@@ -211,19 +211,28 @@ ContactBatch random_contacts(RandomSource &random, const Pair &pair)
   return batch;
 }
 
-// One function for the first stages and one for the last, against all stages.
+// One function for the first stages and one for the last, against all stages; with a normal law that needs no radius there
+// are two ways to find masses.
 TEST(FusedKernels, MayBeFollowed)
 {
   RandomSource random(5);
-  for (const std::string last :
-       {"adhesion willett 0.07 20 volume 1e-11 viscosity 0.01 0.01",
-        "adhesion rabinovich 0.07 20 fraction 0.01", "heat radius 50", "heat area 1e4",
-        "heat radius 50 modulus 1e10 0.3", "heat gas 50 0.02 0.5 0.1"}) {
-    const Pair pair("hertz/material 1e8 0.8 0.3 tangential multistep NULL NULL 0.5 " + last, 1e-3,
-                    1e-3);
+  const std::string lasts[] = {"adhesion willett 0.07 20 volume 1e-11 viscosity 0.01 0.01",
+                               "adhesion rabinovich 0.07 20 fraction 0.01",
+                               "heat radius 50",
+                               "heat area 1e4",
+                               "heat radius 50 modulus 1e10 0.3",
+                               "heat gas 50 0.02 0.5 0.1"};
+  for (int k = 0; k < 12; k++) {
+    const bool hertzian = k < 6;
+    const std::string last = lasts[k % 6];
+    const Pair pair((hertzian ? "hertz/material 1e8 0.8 0.3" : "hooke 1e4 0.1") +
+                        (" tangential multistep NULL NULL 0.5 " + last),
+                    1e-3, 1e-3);
     const ContactKernel kernel = contact_kernel(pair.law, true, true),
                         stages = staged_kernel(pair.law, true, true);
-    ASSERT_FALSE(kernel == stages) << last;
+    if (hertzian) {
+      ASSERT_FALSE(kernel == stages) << last;
+    }
     for (int n = 0; n < 200; n++) {
       ContactBatch fused = random_contacts(random, pair), staged = fused;
       for (auto &one : fused.twisting_torque) one[n % ContactBatch::width] = 1.0;    // is written
