@@ -310,12 +310,13 @@ class Fluid:
         found = [self._shaped(arrays[name], columns[name]) for name in names]
         return found[0] if len(found) == 1 else found
 
-    def put(self, velocity, pressure_gradient=None, gravity=None):
-        """Fields of the fluid in the cells, 3 each; gravity: acceleration (3) from which buoyancy is found. Returns the sums of
-        coefficients of drag per volume."""
+    def put(self, velocity, pressure_gradient=None, gravity=None, vorticity=None):
+        """Fields of the fluid in the cells, 3 each, vorticity the curl of the velocity; gravity: acceleration (3) from which
+        buoyancy is found. Returns the sums of coefficients of drag per volume."""
         n = self.num_cells
         coefficient = (ctypes.c_double * n)()
-        self.partner._call("put_fluid", _doubles(velocity, 3 * n), _doubles(pressure_gradient, 3 * n), _doubles(gravity, 3), coefficient)
+        self.partner._call("put_fluid", _doubles(velocity, 3 * n), _doubles(pressure_gradient, 3 * n), _doubles(gravity, 3),
+                           _doubles(vorticity, 3 * n), coefficient)
         return self._shaped(coefficient, 1) if self.partner.lives_here else None
 
     def put_heat(self, law, velocity, temperature, conductivity, heat_capacity):

@@ -80,8 +80,8 @@
        (partner, solid, velocity, exchange))                                                       \
   CALL(put_fluid,                                                                                  \
        (talus_partner * partner, const double *velocity, const double *pressure_gradient,          \
-        const double *gravity, double *coefficient),                                               \
-       (partner, velocity, pressure_gradient, gravity, coefficient))                               \
+        const double *gravity, const double *vorticity, double *coefficient),                      \
+       (partner, velocity, pressure_gradient, gravity, vorticity, coefficient))                    \
   CALL(put_fluid_heat,                                                                             \
        (talus_partner * partner, const char *law, const double *velocity,                          \
         const double *temperature, double conductivity, double heat_capacity, double *exchange),   \

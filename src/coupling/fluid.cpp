@@ -119,28 +119,34 @@ int call_get_grains(talus_partner *partner, double *solid, double *velocity, dou
 }
 
 int call_put_fluid(talus_partner *partner, const double *velocity, const double *pressure_gradient,
-                   const double *gravity, double *coefficient)
+                   const double *gravity, const double *vorticity, double *coefficient)
 {
   return partner->collective("talus_put_fluid", [&] {
     const PartnerFluid &fluid = fluid_with_law(*partner);
     const bool with_gradient = partner->is_given(pressure_gradient != nullptr),
-               with_gravity = partner->is_given(gravity != nullptr);
+               with_gravity = partner->is_given(gravity != nullptr),
+               with_vorticity = partner->is_given(vorticity != nullptr);
+    if (fluid.lift.needs_vorticity() && !with_vorticity)
+      throw Refusal("vorticity is NULL, and lift in shear needs it: give the curl of the velocity");
     const std::vector<double> velocities = field_of(*partner, fluid, "velocity", velocity, 3);
-    std::vector<double> gradients, acceleration;
+    std::vector<double> gradients, curls, acceleration;
     if (with_gradient)
       gradients = field_of(*partner, fluid, "pressure_gradient", pressure_gradient, 3);
+    if (with_vorticity) curls = field_of(*partner, fluid, "vorticity", vorticity, 3);
     if (with_gravity) acceleration = partner->numbers_of("gravity", gravity, 3);
 
-    const FluidLoads found =
-        fluid.grains->find_loads(partner->system().shapes(), fluid.law,
-                                 {velocities, with_gradient ? &gradients : nullptr, fluid.density,
-                                  fluid.viscosity, with_gravity ? acceleration.data() : nullptr});
+    const FluidLoads found = fluid.grains->find_loads(
+        partner->system().shapes(), fluid.law, fluid.lift,
+        {velocities, with_gradient ? &gradients : nullptr, with_vorticity ? &curls : nullptr,
+         fluid.density, fluid.viscosity, with_gravity ? acceleration.data() : nullptr});
     ExternalLoads &loads = loads_of(*partner);
     const ParticlesById dragged(&partner->instance(), found.ids),
-        pushed(&partner->instance(), found.pushed);
+        pushed(&partner->instance(), found.pushed), turned(&partner->instance(), found.turned);
     partner->refuse_if(loads.problem_of_drag(dragged, found.coefficient.data()));
     loads.put_drag(partner->number(), dragged, found.coefficient.data(), found.velocity.data());
     loads.put_forces(partner->number(), pushed, found.force.data(), nullptr);
+    loads.put_rotational_drag(partner->number(), turned, found.spin_coefficient.data(),
+                              found.omega.data());
     if (partner->is_given(coefficient != nullptr))
       give_columns(*partner, fluid, coefficient, fluid.grains->sum_of(found.ids, found.coefficient),
                    1, 0, 1);

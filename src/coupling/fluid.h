@@ -8,6 +8,7 @@
 #include "coupling/partner.h"
 
 #include "fluid/drag_law.h"
+#include "fluid/lift_law.h"
 #include "system/loads/grains_in_fluid.h"
 
 #include <cstdint>
@@ -23,6 +24,7 @@ struct PartnerFluid {
 
   bool has_law = false;
   DragLaw law;
+  LiftLaw lift;
   double density = 0.0, viscosity = 0.0;
 };
 

@@ -245,11 +245,16 @@ int call_set_drag_law(talus_partner *partner, const char *law, double density, d
 {
   return partner->collective("talus_set_drag_law", [&] {
     DragLaw chosen;
+    LiftLaw lift;
     read_words(*partner, "law", law, [&](Words &words) {
       const int which = words.choice("law of drag", DragLaw::names());
       const double sphericity =
           DragLaw::has_sphericity(which) ? words.between("sphericity", 0.0, 1.0, true) : 1.0;
-      chosen = DragLaw(which, sphericity, words.take("total"));
+      const bool total = words.take("total");
+      chosen = DragLaw(which, sphericity, total);
+      while (!words.at_end())
+        if (!lift.take(words.choice("word", LiftLaw::names())))
+          words.fail(1, "there is one of this kind already");
     });
     const double of_fluid[2] = {partner->number_of("density", density),
                                 partner->number_of("viscosity", viscosity)};
@@ -259,6 +264,7 @@ int call_set_drag_law(talus_partner *partner, const char *law, double density, d
                                   of_fluid[k]));
     PartnerFluid &fluid = fluid_of(*partner);
     fluid.law = chosen;
+    fluid.lift = lift;
     fluid.density = of_fluid[0];
     fluid.viscosity = of_fluid[1];
     fluid.has_law = true;

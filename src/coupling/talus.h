@@ -176,10 +176,11 @@ int talus_get_grains(talus_partner *partner, double *solid, double *velocity, do
 /* Fields of the fluid in the cells of this rank, which drag, pressure gradient and buoyancy are found from, until the next call
    of this: they replace what this partner has put with talus_put_drag() and talus_put_forces(). velocity (3 each);
    pressure_gradient (pressure/distance, 3 each) or NULL; gravity: acceleration (3) from which buoyancy is found where
-   the gradient does not have it, or NULL. coefficient: sums of those of drag over grains per volume of the cell (force
+   the gradient does not have it, or NULL; vorticity (curl of the velocity, 3 each), which lift and drag of rotation are
+   found from; NULL: none. coefficient: sums of those of drag over grains per volume of the cell (force
    time/(distance volume)), or NULL. */
 int talus_put_fluid(talus_partner *partner, const double *velocity, const double *pressure_gradient,
-                    const double *gravity, double *coefficient);
+                    const double *gravity, const double *vorticity, double *coefficient);
 /* Heat of the fluid, until the next call of this, in place of what this partner has put with talus_put_heat(). law: "gunn" or
    "ranz/marshall"; velocity (3 each) and temperature in the cells of this rank; conductivity (power/(distance temperature)) and
    heat capacity (energy/(mass temperature)) of the fluid, whose density and viscosity are those of its drag. exchange: power

@@ -84,7 +84,7 @@ int main(int argc, char **argv)
   for (int k = 0; k < 192; k++) fluid[k] = k % 3 == 2 ? 0.5 : 0.0;
   CHECK(talus_set_fluid_grid(partner, "tophat 0", lo, hi, cells, first, last));
   CHECK(talus_set_drag_law(partner, "ergun", 1.0, 0.01));
-  CHECK(talus_put_fluid(partner, n ? fluid : NULL, NULL, NULL, coefficient));
+  CHECK(talus_put_fluid(partner, n ? fluid : NULL, NULL, NULL, NULL, coefficient));
   CHECK(talus_advance(partner, 10));
   CHECK(talus_get_grains(partner, solid, velocity, exchange));
   double mine[3] = {0, 0, 0}, all[3];

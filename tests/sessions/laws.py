@@ -85,12 +85,24 @@ def _adhesion(rng):
         return line("adhesion constant", some(rng, 1, 20, *FORCE))
     if kind > 0.3:
         return ()
+    return _bridges(rng)
+
+
+def _bridges(rng):
     amount = line("volume", some(rng, 5e-4, 5e-3, *VOLUME)) if rng.random() < 0.5 else line("fraction", some(rng, 1e-3, 1e-2))
     model = "adhesion willett" if rng.random() < 0.5 else "adhesion rabinovich"
     words = line(model, some(rng, 0.2, 4, *TENSION), some(rng, 0, 80), amount)
     if rng.random() < 0.5:
         words = line(words, "viscosity", some(rng, 0.01, 0.2, *VISCOSITY), some(rng, 0.01, 0.1))
     return words
+
+
+def wet(rng):
+    """Of particles that have liquid, which bridges take from them."""
+    normal = rng.choice(NORMALS)
+    words, gt = _normal(rng, normal)
+    tangential = _tangential(rng, normal, gt)
+    return line(normal, words, tangential, _resistance(rng, tangential), _bridges(rng), "share", some(rng, 0.2, 1))
 
 
 def law(rng, shapes=False, normal=None):

@@ -11,6 +11,7 @@ STEPS = 6
 SEGMENTS = 4
 POSITION, RELATIVE = 1e-11, 1e-8    # of a diameter; of the largest value of a column
 OF_BONDS = 1e-8, 2e-6               # the same where angles of LAMMPS are rounded to 1e-8
+OF_RATES = 1e-8, 1e-4               # and where damping divides that by the time step
 
 
 def draw(rng):
@@ -47,7 +48,9 @@ def accelerated(scene, ranks, n, restarts):
 
 
 def limits(scene):
-    return OF_BONDS if scene.once else (POSITION, RELATIVE)
+    if not scene.once:
+        return POSITION, RELATIVE
+    return OF_RATES if any("damping derivative" in words for words in scene.physical()) else OF_BONDS
 
 
 def _is_that_of_one_rank(run, scene, ranks, seen):

@@ -121,6 +121,7 @@ def spheres(rng, periodic=False, moves=True):
     found = grains(rng, rng.randint(6, 30), types, rng.choice(((0.9, 1.05), (0.8, 1.1), (0.4, 1.1))))
     second = rng.random() < 0.15
     hot = not second and rng.random() < 0.15
+    wet = not second and not hot and rng.random() < 0.1
     normal = rng.choice(laws.MATERIALS + laws.COHESIVE) if rng.random() < 0.4 else None
     normal = rng.choice(("hooke", "hertz")) if second else normal
 
@@ -129,9 +130,12 @@ def spheres(rng, periodic=False, moves=True):
             return laws.of_second_order(rng, normal)
         return line(laws.law(rng, normal=normal), laws.heat(rng) if hot else ())
 
-    physics = [line("pair_style gran/penalty"), line("pair_coeff * *", law())]
+    def of_grains():
+        return laws.wet(rng) if wet and rng.random() < 0.8 else law()
+
+    physics = [line("pair_style gran/penalty"), line("pair_coeff * *", of_grains())]
     if types == 2:
-        physics += [line("pair_coeff 1 2", law()), line("pair_coeff 2 2", law())]
+        physics += [line("pair_coeff 1 2", of_grains()), line("pair_coeff 2 2", of_grains())]
     physics += neighbors(rng)
     fall = line("gravity", number(gravity(rng)[0], 1, 0, -2), "vector", direction(bodies.random_direction(rng)))
     order = "order 2" if second else rng.choice(("", "start half"))
@@ -144,7 +148,16 @@ def spheres(rng, periodic=False, moves=True):
         return line(words, "temperature", laws.some(rng, 0, 5)) if hot and rng.random() < 0.7 else words
 
     scene = _with_bodies(rng, found, physics, boundary, types, contact, moves, traits=traits)
-    return _with_heat(rng, scene) if hot else scene
+    return _with_heat(rng, scene) if hot else _with_liquid(rng, scene) if wet else scene
+
+
+def _with_liquid(rng, scene):
+    """Its grains have liquid, of which bridges take some."""
+    first = (line("set group all d_liquid", laws.some(rng, 1e-3, 1e-2, *laws.VOLUME)),
+             line("set atom", f"1*{rng.randint(1, len(scene.grains))}", "d_liquid", laws.some(rng, 0, 1e-3, *laws.VOLUME)))
+    return scene.but(start=(*scene.start, line("fix wet all property/atom d_liquid ghost yes")),
+                     physics=(*scene.physics, line("compute liquid all property/atom d_liquid")), program=(*first, *scene.program),
+                     columns=("c_liquid",), traits=scene.traits | {"wet"})
 
 
 def _with_heat(rng, scene):

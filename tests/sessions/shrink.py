@@ -100,11 +100,11 @@ def _scenes(scene):
             yield scene.but(grains=(*scene.grains[:n], simpler, *scene.grains[n + 1:]))
     for n, words in enumerate(scene.physics):
         for k, word in enumerate(words):
-            if isinstance(word, Quantity) and rounded(word, 2) != word:
+            if isinstance(word, Quantity) and rounded(word, 2) != word and words[0] != "timestep":    # which would be zero
                 yield scene.but(physics=(*scene.physics[:n], (*words[:k], rounded(word, 2), *words[k + 1:]), *scene.physics[n + 1:]))
 
 
-OPTIONS = ("tangential", "rolling", "rolling sds", "spinning", "twisting sds", "adhesion constant", "adhesion willett", "adhesion rabinovich", "viscosity",
+OPTIONS = ("tangential", "rolling", "rolling sds", "spinning", "twisting sds", "adhesion constant", "adhesion willett", "adhesion rabinovich", "viscosity", "share",
            "heat radius", "heat area", "temperature", "limit_damping", "move free mass",
            "move linear", "move wiggle", "move rotate", "servo force", "gravity", "start", "velocity", "spin", "rounded", "midpoint",
            "slider", "stock")

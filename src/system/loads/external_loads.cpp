@@ -87,12 +87,12 @@ bool ExternalLoads::any_has(unsigned some) const
 
 bool ExternalLoads::any() const
 {
-  return any_has(FORCE | TORQUE | DRAG | HEAT);
+  return any_has(KINDS);
 }
 
 std::string ExternalLoads::needs_arrays() const
 {
-  if (system.pipeline().keeps_omega() || !any_has(TORQUE)) return "";
+  if (system.pipeline().keeps_omega() || !any_has(TORQUE | SPIN)) return "";
   return "it turns particles and the contacts between them do not";
 }
 
@@ -144,7 +144,7 @@ void ExternalLoads::replace(int partner, unsigned kinds, const ParticlesById &pa
   const int layer = take_place(partner);
   if (particles.size()) make_room();
   if (what.empty()) return;
-  const bool in_sums = (kinds & (FORCE | TORQUE | DRAG)) != 0;
+  const bool in_sums = (kinds & IN_SUMS) != 0;
   if (in_sums) take_back();    // by what was put before
   unset_kinds(layer, kinds);
   particles.for_each([&](std::size_t k, int i) { set_kinds(layer, i, put(k, place(layer, i))); });
@@ -172,6 +172,16 @@ void ExternalLoads::put_drag(int partner, const ParticlesById &particles, const 
     *to.coefficient = coefficient[k];
     copy_row(fluid_velocity + 3 * k, to.fluid_velocity);
     return DRAG;
+  });
+}
+
+void ExternalLoads::put_rotational_drag(int partner, const ParticlesById &particles,
+                                        const double *coefficient, const double *fluid_omega)
+{
+  replace(partner, SPIN, particles, [&](std::size_t k, const Place &to) {
+    *to.spin_coefficient = coefficient[k];
+    copy_row(fluid_omega + 3 * k, to.fluid_omega);
+    return SPIN;
   });
 }
 
@@ -211,8 +221,7 @@ void ExternalLoads::clear(int partner)
   for (int i = 0; i < static_cast<int>(what.size()); i++)
     for (double *const count : {counts_of(layer, i).for_particles, counts_of(layer, i).for_fields})
       clear_row(count);
-  replace(partner, FORCE | TORQUE | DRAG | HEAT, ParticlesById(lmp, {}),
-          [](std::size_t, const Place &) { return 0U; });
+  replace(partner, KINDS, ParticlesById(lmp, {}), [](std::size_t, const Place &) { return 0U; });
   drop_place(layer);
 }
 

@@ -1,6 +1,6 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Forces, torques, drag and heat that another program puts on particles, by ID (talus.h). They act in
+// Forces, torques, drag, drag of rotation and heat that another program puts on particles, by ID (talus.h). They act in
 // each step, in the records and in the arrays of LAMMPS, after all other forces: drag is found from
 // the sum of these. They travel with the particles, and are gone with those that are deleted.
 //
@@ -14,9 +14,12 @@
 // and count as one. Of spheres of clumps drag is taken at the present velocity. Particles that nothing
 // moves, and frozen ones, bear drag at the velocity they have.
 //
+// Drag of rotation c_T (O - w), w the angular velocity, is taken in the same way: c_T/(1 + k c_T/I), I = 2/5 m r^2. Spheres of
+// clumps, frozen particles and those that nothing moves have none; nobody is told its impulse.
+//
 // Several partners of an instance each put their own: forces, torques and heat add up, and drag of several is
-// that of c = sum c_k and u = sum c_k u_k / c, of which each has c_k (u_k - v), with the same v. As long as only
-// one has put some there are no parts.
+// that of c = sum c_k and u = sum c_k u_k / c, of which each has c_k (u_k - v), with the same v; that of rotation too. As
+// long as only one has put some there are no parts.
 //
 //   external_loads.cpp          the fix, what is put, what travels with particles
 //   external_loads_parts.cpp    what each of several partners has put
@@ -66,6 +69,9 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
                   const double *torque);
   void put_drag(int partner, const ParticlesById &particles, const double *coefficient,
                 const double *fluid_velocity);
+  /// Coefficient (torque time) and angular velocity of the fluid (3 each).
+  void put_rotational_drag(int partner, const ParticlesById &particles, const double *coefficient,
+                           const double *fluid_omega);
   void put_heat(int partner, const ParticlesById &particles, const double *flow);
   /// Of this rank: "", or why drag is too large where it is taken at the present velocity.
   std::string problem_of_drag(const ParticlesById &particles, const double *coefficient);
@@ -109,7 +115,9 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
  private:
   // of one particle, bits: ADDED: force, torque and drag are in the sums that are there between
   // steps; DUE: drag begins the next step
-  static constexpr unsigned FORCE = 1, TORQUE = 2, DRAG = 4, HEAT = 8, ADDED = 16, DUE = 32;
+  static constexpr unsigned FORCE = 1, TORQUE = 2, DRAG = 4, HEAT = 8, ADDED = 16, DUE = 32,
+                            SPIN = 64;    // drag of rotation
+  static constexpr unsigned IN_SUMS = FORCE | TORQUE | DRAG | SPIN, KINDS = IN_SUMS | HEAT;
   /// What each step reads, and writes in the last two.
   struct Load {
     double force[3], coefficient, fluid_velocity[3], drag[3], impulse[3];
@@ -117,15 +125,16 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   /// What few steps need. Impulses are those up to now, without the one of the load.
   struct Rest {
     double torque[3], heat, for_particles[3], for_fields[3];
+    double spin_coefficient, fluid_omega[3], spin_drag[3];
   };
-  static constexpr int size_packed = 24;
+  static constexpr int size_packed = 31;
   static_assert(sizeof(Load) + sizeof(Rest) == sizeof(double) * (size_packed - 1));
 
   /// What one of several partners has put on a particle, and impulses of its drag.
   struct Part {
-    double kinds;    ///< bits FORCE to HEAT
-    double force[3], torque[3], coefficient, fluid_velocity[3], heat, for_particles[3],
-        for_fields[3];
+    double kinds;    ///< of the bits KINDS
+    double force[3], torque[3], coefficient, fluid_velocity[3], spin_coefficient, fluid_omega[3],
+        heat, for_particles[3], for_fields[3];
   };
   static constexpr int size_part = sizeof(Part) / sizeof(double);
   static bool has(const Part &part, unsigned some)
@@ -136,7 +145,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   using Layer = std::vector<Part>;
   /// Where a partner's numbers of a particle are kept.
   struct Place {
-    double *force, *torque, *coefficient, *fluid_velocity, *heat;
+    double *force, *torque, *coefficient, *fluid_velocity, *spin_coefficient, *fluid_omega, *heat;
   };
 
   /// How the forces of now move the particles of one integrator.
@@ -189,6 +198,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void act_on(int i, const ParticleState &particles, Moment moment);
   void add(int i, const ParticleState &particles, const Kick *kick, Moment moment);
   void find_drag(int i, const double *v, const double *force, const Kick *kick);
+  void find_spin_drag(int i, const double *omega, const double *torque, const Kick &kick);
 
   GranularSystem &system;
   LAMMPS_NS::Fix *fix = nullptr;

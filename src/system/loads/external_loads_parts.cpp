@@ -29,6 +29,25 @@ bool is_zero(const double *row)
   return row[0] == 0.0 && row[1] == 0.0 && row[2] == 0.0;
 }
 
+/// c = sum c_k and u = sum c_k u_k / c.
+class WeightedMean {
+ public:
+  void add(double coefficient, const double *value)
+  {
+    weight += coefficient;
+    add_row(coefficient, value, sum);
+  }
+  /// u stays as it is where c is 0.
+  void give(double &coefficient, double *value) const
+  {
+    coefficient = weight;
+    for (int d = 0; d < 3 && weight > 0.0; d++) value[d] = sum[d] / weight;
+  }
+
+ private:
+  double weight = 0.0, sum[3] = {};
+};
+
 }    // namespace
 
 /* ---- who has put something ------------------------------------------------------------------ */
@@ -57,11 +76,13 @@ void ExternalLoads::divide()
   for (std::size_t i = 0; i < what.size(); i++) {
     settle_impulse(static_cast<int>(i));
     Part &part = first[i];
-    part.kinds = what[i] & (FORCE | TORQUE | DRAG | HEAT);
+    part.kinds = what[i] & KINDS;
     copy_row(loads[i].force, part.force);
     copy_row(rest[i].torque, part.torque);
     part.coefficient = loads[i].coefficient;
     copy_row(loads[i].fluid_velocity, part.fluid_velocity);
+    part.spin_coefficient = rest[i].spin_coefficient;
+    copy_row(rest[i].fluid_omega, part.fluid_omega);
     part.heat = rest[i].heat;
     std::swap(part.for_particles, rest[i].for_particles);
     std::swap(part.for_fields, rest[i].for_fields);
@@ -98,10 +119,17 @@ void ExternalLoads::drop_place(int layer)
 ExternalLoads::Place ExternalLoads::place(int layer, int i)
 {
   if (layers.empty())
-    return {loads[i].force, rest[i].torque, &loads[i].coefficient, loads[i].fluid_velocity,
+    return {loads[i].force,
+            rest[i].torque,
+            &loads[i].coefficient,
+            loads[i].fluid_velocity,
+            &rest[i].spin_coefficient,
+            rest[i].fluid_omega,
             &rest[i].heat};
   Part &part = layers[layer][i];
-  return {part.force, part.torque, &part.coefficient, part.fluid_velocity, &part.heat};
+  return {
+      part.force,       part.torque, &part.coefficient, part.fluid_velocity, &part.spin_coefficient,
+      part.fluid_omega, &part.heat};
 }
 
 ExternalLoads::Counts ExternalLoads::counts_of(int layer, int i)
@@ -135,7 +163,8 @@ void ExternalLoads::add_up(int i)
   if (layers.empty()) return;
   Load &load = loads[i];
   Rest &others = rest[i];
-  double force[3] = {}, torque[3] = {}, momentum[3] = {}, heat = 0.0, coefficient = 0.0;
+  double force[3] = {}, torque[3] = {}, heat = 0.0;
+  WeightedMean drag, spin;
   unsigned kinds = 0;
   for (const Layer &layer : layers) {
     const Part &part = layer[i];
@@ -143,17 +172,15 @@ void ExternalLoads::add_up(int i)
     if (has(part, FORCE)) add_row(1.0, part.force, force);
     if (has(part, TORQUE)) add_row(1.0, part.torque, torque);
     if (has(part, HEAT)) heat += part.heat;
-    if (!has(part, DRAG)) continue;
-    coefficient += part.coefficient;
-    add_row(part.coefficient, part.fluid_velocity, momentum);
+    if (has(part, DRAG)) drag.add(part.coefficient, part.fluid_velocity);
+    if (has(part, SPIN)) spin.add(part.spin_coefficient, part.fluid_omega);
   }
   copy_row(force, load.force);
   copy_row(torque, others.torque);
   others.heat = heat;
-  load.coefficient = coefficient;
-  for (int d = 0; d < 3 && coefficient > 0.0; d++)
-    load.fluid_velocity[d] = momentum[d] / coefficient;
-  unset(i, FORCE | TORQUE | DRAG | HEAT);
+  drag.give(load.coefficient, load.fluid_velocity);
+  spin.give(others.spin_coefficient, others.fluid_omega);
+  unset(i, KINDS);
   set(i, kinds);
 }
 

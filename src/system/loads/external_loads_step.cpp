@@ -114,7 +114,7 @@ void ExternalLoads::act_on(int i, const ParticleState &particles, Moment moment)
   if (moment == Moment::STEP && has(i, DUE) && kick) count_drag(i, kick->at_start);
   unset(i, ADDED | DUE);
   if (has(i, HEAT) && moment == Moment::STEP) atom->heatflow[i] += rest[i].heat;
-  if (has(i, FORCE | TORQUE | DRAG) && !has_read) add(i, particles, kick, moment);
+  if (has(i, IN_SUMS) && !has_read) add(i, particles, kick, moment);
 }
 
 /* There may be an act between steps before they are there. */
@@ -136,6 +136,8 @@ void ExternalLoads::take_back()
     if (kick && kick->has_read) continue;
     if (has(i, DRAG)) add_to_row(-1.0, loads[i].drag, particles.f(i));
     if (has(i, FORCE)) add_to_row(-1.0, loads[i].force, particles.f(i));
+    if (has(i, SPIN) && kick && !kick->rigid)
+      add_to_row(-1.0, rest[i].spin_drag, particles.torque(i));
     if (has(i, TORQUE)) add_to_row(-1.0, rest[i].torque, particles.torque(i));
     unset(i, ADDED);
   }
@@ -157,6 +159,10 @@ void ExternalLoads::add(int i, const ParticleState &particles, const Kick *kick,
   if (!kick) return;
   std::copy(sum, sum + 3, f);
   if (has(i, TORQUE)) add_to_row(1.0, rest[i].torque, particles.torque(i));
+  if (has(i, SPIN) && !kick->rigid) {
+    find_spin_drag(i, particles.w(i), particles.torque(i), *kick);
+    add_to_row(1.0, rest[i].spin_drag, particles.torque(i));
+  }
   set(i, ADDED | (has(i, DRAG) ? DUE : 0U));
 }
 
@@ -171,6 +177,19 @@ void ExternalLoads::find_drag(int i, const double *v, const double *force_row, c
   for (int d = 0; d < 3; d++)
     load.drag[d] = implicit * (u[d] - (v[d] + (per_mass * force_row[d] + (g ? time * g[d] : 0.0))));
   if (domain->dimension == 2) load.drag[2] = 0.0;
+}
+
+/* In three dimensions, of spheres. */
+
+void ExternalLoads::find_spin_drag(int i, const double *omega, const double *torque_row,
+                                   const Kick &kick)
+{
+  Rest &own = rest[i];
+  const double radius = atom->radius[i],
+               per_inertia = kick.time * force->ftm2v / (0.4 * atom->rmass[i] * radius * radius);
+  const double c = own.spin_coefficient, implicit = c / (1.0 + per_inertia * c);
+  for (int d = 0; d < 3; d++)
+    own.spin_drag[d] = implicit * (own.fluid_omega[d] - (omega[d] + per_inertia * torque_row[d]));
 }
 
 }    // namespace Talus

@@ -30,6 +30,11 @@ double diameter_of(double volume)
   return std::cbrt(6.0 / pi * volume);
 }
 
+Vector3<double> vector(const double *row)
+{
+  return {row[0], row[1], row[2]};
+}
+
 double distance(const double *a, const double *b)
 {
   return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
@@ -232,18 +237,32 @@ void GrainsInFluid::tell_shape(const ShapedParticles *shapes, int i, const Vecto
   grain.crosswise = shadows.crosswise(type, shape, turned, along);
 }
 
-FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLaw &law,
-                                     const FluidFields &fields)
+/* To the last one with drag. */
+
+void GrainsInFluid::add_lift(const LiftLaw &lift, const TurningGrain &grain, FluidLoads &loads)
 {
-  const bool has_gradient = fields.pressure_gradient != nullptr;
-  const int width = has_gradient ? 7 : 4;
+  const Vector3<double> force = lift.force(grain);
+  double *const u = &loads.velocity[loads.velocity.size() - 3];
+  const double c = loads.coefficient.back();
+  u[0] += force.x / c;
+  u[1] += force.y / c;
+  u[2] += force.z / c;
+}
+
+FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLaw &law,
+                                     const LiftLaw &lift, const FluidFields &fields)
+{
+  const bool has_gradient = fields.pressure_gradient != nullptr,
+             has_vorticity = fields.vorticity != nullptr;
+  const int gradient = 4, vorticity = gradient + (has_gradient ? 3 : 0),
+            width = vorticity + (has_vorticity ? 3 : 0);
   const std::vector<double> solid = solid_for(law.depends_on_porosity(), shapes);
   std::vector<double> of_cells;
   for (int n = 0; n < num_cells(); n++) {
     of_cells.push_back(1.0 - solid[n]);
-    for (int d = 0; d < 3; d++) of_cells.push_back(fields.velocity[3 * n + d]);
-    for (int d = 0; d < 3 && has_gradient; d++)
-      of_cells.push_back((*fields.pressure_gradient)[3 * n + d]);
+    for (const std::vector<double> *field :
+         {&fields.velocity, fields.pressure_gradient, fields.vorticity})
+      for (int d = 0; d < 3 && field; d++) of_cells.push_back((*field)[3 * n + d]);
   }
   const std::vector<double> at_grains = values_at_grains(of_cells, width);
 
@@ -253,22 +272,36 @@ FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLa
     if (!is_in_group(i)) continue;
     const double *const at = &at_grains[static_cast<std::size_t>(i) * width], *const u = at + 1;
     const double *const v = atom->v[i], volume = particle_volume(*atom, shapes, i);
+    const Vector3<double> slip = vector(u) - vector(v);
     const double speed = distance(u, v);
     GrainInFluid grain{diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
                        fields.density, fields.viscosity};
-    if (law.depends_on_shape())
-      tell_shape(shapes, i, {u[0] - v[0], u[1] - v[1], u[2] - v[2]}, shadows, grain);
+    if (law.depends_on_shape()) tell_shape(shapes, i, slip, shadows, grain);
     const double c = law.coefficient(grain);
     if (c > 0.0) {
       loads.ids.push_back(atom->tag[i]);
       loads.coefficient.push_back(c);
       loads.velocity.insert(loads.velocity.end(), u, u + 3);
     }
+    const TurningGrain turning{
+        grain.diameter,
+        slip,
+        vector(atom->omega[i]),
+        has_vorticity ? vector(at + vorticity) : Vector3<double>{0.0, 0.0, 0.0},
+        fields.density,
+        fields.viscosity};
+    if (c > 0.0 && lift.lifts()) add_lift(lift, turning, loads);
+    if (lift.drags_rotation() && !(shapes && shapes->is_shaped(atom->type[i]))) {
+      loads.turned.push_back(atom->tag[i]);
+      loads.spin_coefficient.push_back(LiftLaw::rotation_coefficient(turning));
+      for (int d = 0; d < 3; d++)
+        loads.omega.push_back(has_vorticity ? 0.5 * at[vorticity + d] : 0.0);
+    }
     if (!has_gradient && !fields.gravity) continue;
     loads.pushed.push_back(atom->tag[i]);
     for (int d = 0; d < 3; d++)
       loads.force.push_back(-volume *
-                            ((has_gradient ? at[4 + d] : 0.0) +
+                            ((has_gradient ? at[gradient + d] : 0.0) +
                              (fields.gravity ? fields.density * fields.gravity[d] : 0.0)));
   }
   return loads;

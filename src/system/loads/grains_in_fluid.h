@@ -18,6 +18,7 @@
 #include "fluid/fluid_cells.h"
 #include "fluid/grain_shares.h"
 #include "fluid/heat_law.h"
+#include "fluid/lift_law.h"
 
 #include "pointers.h"
 
@@ -33,19 +34,22 @@ class ExternalLoads;
 class ShapedParticles;
 class ShapeShadows;
 
-/// What the cells of this rank have, in the order of places, 3 each. Gradient of the pressure: nullptr for none.
+/// What the cells of this rank have, in the order of places, 3 each. Gradient of the pressure, vorticity: nullptr for none.
 struct FluidFields {
-  const std::vector<double> &velocity, *pressure_gradient;
+  const std::vector<double> &velocity, *pressure_gradient, *vorticity;
   double density, viscosity;
   const double *gravity;    ///< of the buoyancy; nullptr: that is in the gradient, or left out
 };
 
-/// Of particles of this rank with drag, by ID, and forces on them: none, or 3 each.
+/// Of particles of this rank with drag, by ID, forces on them: none, or 3 each, and drag of their rotation. Lift L is in the
+/// velocity of drag, u + L/c, so that its impulses are counted with those of drag.
 struct FluidLoads {
   std::vector<std::int64_t> ids;
   std::vector<double> coefficient, velocity;
   std::vector<std::int64_t> pushed;
   std::vector<double> force;
+  std::vector<std::int64_t> turned;
+  std::vector<double> spin_coefficient, omega;
 };
 
 /// What the cells of this rank have for heat, in the order of places: velocity 3 each.
@@ -87,7 +91,7 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   /// of grains which have left the cells, or the group, counts too.
   std::vector<double> take_exchange(ExternalLoads &loads, int partner);
   /// Collective. What these fields do to grains with their present velocities.
-  FluidLoads find_loads(const ShapedParticles *shapes, const DragLaw &law,
+  FluidLoads find_loads(const ShapedParticles *shapes, const DragLaw &law, const LiftLaw &lift,
                         const FluidFields &fields);
   /// Collective. What this fluid gives grains with their present velocities and temperatures, which they have.
   HeatLoads find_heat(const ShapedParticles *shapes, const HeatLaw &law, const FluidHeat &fields);
@@ -103,6 +107,7 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   void update_shares();
   void tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
                   ShapeShadows &shadows, GrainInFluid &grain) const;
+  static void add_lift(const LiftLaw &lift, const TurningGrain &grain, FluidLoads &loads);
   std::vector<double> solid_for(bool needed, const ShapedParticles *shapes);
   std::vector<double> sum(int width, const Amounts &amounts);
   std::vector<double> values_at_grains(const std::vector<double> &of_cells, int width);
