@@ -77,6 +77,7 @@ void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles
   tallied = 0;
   flows.clear();
   chunk_work = EnergyByCause{};
+  chunk_virial = VirialSums{};
   work_left.clear();
   if (step.weight_of_changes == 0.0F) clear_changes();
   if (scene.with_history)
@@ -195,6 +196,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
     if (scene.with_twisting) add_twisting_torques(step.particles, block, count);
   }
   defer(step, block, count);
+  if (step.virial) add_virial(block, count);
   if (step.tally) tally_block(step, block, count);
   if (step.account) account_block(step, block, count);
 }

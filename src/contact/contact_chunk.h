@@ -13,6 +13,7 @@
 #include "base/state_exchange.h"
 #include "contact/deferred_forces.h"
 #include "contact/liquid_bridges.h"
+#include "contact/virial_sums.h"
 #include "history/contact_history.h"
 #include "laws/contact_batch.h"
 #include "laws/contact_energy.h"
@@ -57,8 +58,8 @@ struct ContactScene {
 };
 
 /// How a step is computed. `advance` is false while a run is set up: histories are then only read.
-/// `tally`, if given, is called for every contact, by one thread; `account`, if given, receives the
-/// work of all contacts. `progress`, if given, is called now and then by the first thread, for the
+/// `tally`, if given, is called for every contact, by one thread; `virial`, if given, has that of all contacts added;
+/// `account`, if given, receives their work. `progress`, if given, is called now and then by the first thread, for the
 /// progress of MPI messages. `add_other_forces`, if given, adds other forces to the sums of slots
 /// begin ... end-1 after those of their contacts: called once by each thread, with its number and
 /// range.
@@ -66,6 +67,7 @@ struct ContactStep {
   double dt;
   bool advance;
   const std::function<void(const TalliedContact &)> *tally = nullptr;
+  VirialSums *virial = nullptr;
   WorkAccount *account = nullptr;
   const std::function<void()> *progress = nullptr;
   const std::function<void(int thread, int begin, int end)> *add_other_forces = nullptr;
@@ -132,6 +134,7 @@ class ContactChunk {
   /// What the last compute() has found of the work of contacts; those of first particles that other
   /// chunks may deal with at the same time are not in the lists of step.account yet.
   const EnergyByCause &work() const { return chunk_work; }
+  const VirialSums &virial() const { return chunk_virial; }
   /// Of bridges that broke in it.
   const std::vector<LiquidFlow> &liquid_flows() const { return flows; }
   void add_work_left(const WorkAccount &to) const;
@@ -178,6 +181,7 @@ class ContactChunk {
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void account_by_particle(const Step &step, const std::uint32_t *contacts, int count);
+  void add_virial(const std::uint32_t *contacts, int count);
   void tally_block(const Step &step, const std::uint32_t *contacts, int count);
   void tally_early_before(int second, int first, const Step &step);
 
@@ -192,6 +196,7 @@ class ContactChunk {
   std::size_t tallied = 0;                  ///< of those of the early chunk
   std::vector<LiquidFlow> flows;
   EnergyByCause chunk_work;
+  VirialSums chunk_virial;
   struct WorkLeft {
     int atom;
     EnergyByCause work;

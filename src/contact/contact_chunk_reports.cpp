@@ -56,6 +56,28 @@ void ContactChunk::tally_early_before(int second, int first, const Step &step)
   }
 }
 
+/* Lanes of copies count nothing. The separation is that of which the geometry has left its direction and length. */
+
+void ContactChunk::add_virial(const std::uint32_t *block, int count)
+{
+  const ParticleOrder &order = pairs.order();
+  alignas(64) double share[ContactBatch::width] = {};
+  for (int n = 0; n < count; n++) {
+    const std::uint32_t pair = block[n];
+    share[lane_of_contact[n]] = (pairs.weighted() ? pairs.weights[pair] : 1.0) *
+                                order.share(pairs.first[pair], pairs.second[pair]);
+  }
+  const Vec8 zero = splat<Vec8>(0.0), one = splat<Vec8>(1.0);
+  const auto vector = [](const double(*rows)[ContactBatch::width], int k) {
+    return Vector3<Vec8>{load8(&rows[0][k]), load8(&rows[1][k]), load8(&rows[2][k])};
+  };
+  for (int k = 0; k < ranges.back().end; k += lanes) {
+    const Vec8 inverse = load8(&batch.inverse_distance[k]);
+    const Vec8 distance = select(inverse > zero, one / inverse, zero);
+    chunk_virial.add(vector(batch.force, k), load8(&share[k]) * distance * vector(batch.normal, k));
+  }
+}
+
 /* Lanes of copies count nothing, and those of a contact with a ghost a half: the other rank has the
    other one. */
 

@@ -237,7 +237,8 @@ void ContactPipeline::end_step(const ParticleView &arrays, const ContactStep &st
 {
   moving.end_step(!step.deliver);
   for (const ContactChunk &chunk : chunks) {
-    if (!step.account) break;
+    if (step.virial) step.virial->add(chunk.virial());
+    if (!step.account) continue;
     step.account->sum += chunk.work();
     chunk.add_work_left(*step.account);
   }

@@ -8,6 +8,7 @@
 #include "pair/pair_of_system.h"
 
 #include "contact/state_of_pair.h"
+#include "contact/virial_sums.h"
 #include "laws/intersection_radius.h"
 #include "laws/tangential/end_of_contact.h"
 #include "system/host/private_members.h"
@@ -35,9 +36,14 @@ template <class Base> void PairOfSystem<Base>::compute_contacts(int eflag, int v
   this->ev_init(eflag, vflag);
   const std::function<void(const Talus::TalliedContact &)> to_lammps =
       [this](const Talus::TalliedContact &c) { tally(c); };
+  const bool one_by_one = this->vflag_atom || this->cvflag_atom ||
+                          (this->vflag_either && system->shapes() != nullptr),
+             summed = this->vflag_global && !one_by_one;
+  Talus::VirialSums sums;
   bonded_pairs.follow_bonds();
-  system->step().compute_contacts(this->vflag_either ? &to_lammps : nullptr);
+  system->step().compute_contacts(one_by_one ? &to_lammps : nullptr, summed ? &sums : nullptr);
   bonded_pairs.are_used();
+  for (int n = 0; n < Talus::VirialSums::size && summed; n++) this->virial[n] += sums.value(n);
 }
 
 /* To LAMMPS, as if newton were off, an index of a ghost means that nothing is tallied for it. */

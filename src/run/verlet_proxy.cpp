@@ -3,6 +3,7 @@
 #include "run/verlet_proxy.h"
 
 #include "run/overlap_hazards.h"
+#include "system/host/bonded_styles.h"
 #include "system/host/command_words.h"
 #include "system/monitor/exchange_report.h"
 
@@ -159,8 +160,8 @@ void VerletProxy::run(int n)
 
 bool VerletProxy::others_act_on_ghosts() const
 {
-  return force->bond || force->angle || force->dihedral || force->improper || force->kspace ||
-         modify->n_pre_force || modify->n_pre_reverse || !system->pair_style().is_alone();
+  return has_bonded_forces(*force) || force->kspace || modify->n_pre_force ||
+         modify->n_pre_reverse || !system->pair_style().is_alone();
 }
 
 /* One step of LAMMPS' Verlet loop, in its order; only the marked places differ. With few particles

@@ -58,6 +58,14 @@ class Session:
         *state, steps = map(float, numbers)
         self.partner.body(fix).put_state(state, int(steps))
 
+    def fluid(self, *law):
+        """That streams and turns, on cells around the box."""
+        low, high, _, _, _, periodic, _ = self.lmp.extract_box()
+        room = [0.0 if along else 5.0 for along in periodic]
+        fluid = self.partner.fluid_grid([a - b for a, b in zip(low, room)], [a + b for a, b in zip(high, room)], (2, 2, 2), "tophat 1")
+        fluid.drag_law(" ".join(law), 0.1, 0.05)
+        fluid.put([[0.3, 0.0, 0.5]] * 8, vorticity=[[0.2, -0.5, 1.0]] * 8)
+
     def open_other(self):
         self.other = self.other or Partner(self.lmp)
 
@@ -100,6 +108,7 @@ CALLS = {
     "abort": lambda session: os.abort(),    # for tests of the pool
     "sleep": lambda session, seconds: time.sleep(float(seconds)),
     "put_drag": lambda session, tag, c, *u: session.partner.put_drag([int(tag)], [float(c)], _three(u)),
+    "fluid": Session.fluid,
     "put_state": Session.put_state,
     "watch": lambda session, fix: session.partner.body(fix).watch(),
     "load": lambda session, fix: session.partner.body(fix).load(),

@@ -175,7 +175,11 @@ def drag(rng, scene):
 
 
 def partner(rng, scene):
-    return [line("@put_forces 1", *[f"{rng.uniform(-3, 3):.4g}" for _ in "xyz"])] + rng.choice(([], [line("@put_drag 2 0.4 0.1 0 0.3")]))
+    law = rng.choice(("stokes", "wen/yu", "koch/hill total", "hoelzer/sommerfeld"))
+    fluid = line("@fluid", law.split(), rng.choice(((), "saffman", "saffman/mei")), rng.choice(((), "magnus", "magnus/oesterle")),
+                 rng.choice(((), "rotation")))
+    return rng.choice(([fluid], [line("@put_forces 1", *[f"{rng.uniform(-3, 3):.4g}" for _ in "xyz"])] +
+                       rng.choice(([], [line("@put_drag 2 0.4 0.1 0 0.3")]))))
 
 
 def settings(rng, scene):

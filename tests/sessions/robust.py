@@ -49,7 +49,7 @@ fix turn all deform 1 y erate 0.1 remap v|fix turn all deform 1 z final -3 9 rem
 set group all temperature 2|compute warmth all property/atom temperature;dump warm all custom 2 warm id c_warmth
 minimize 1e-4 1e-4 3 3
 fix press all deform/pressure 1 x pressure 5 0.1 max/rate 1 remap v|fix turn all deform 1 xy erate 0.3 remap v|change_box all x scale 0.99 remap
-@advance 4|@save s|@restore s|@discard s|@set_up|@put_forces 1 0 0 3|@close|@watch b0;@advance 2;@load b0|@put_drag 1 0.3 0 0 1
+@advance 4|@save s|@restore s|@discard s|@set_up|@put_forces 1 0 0 3|@close|@watch b0;@advance 2;@load b0|@put_drag 1 0.3 0 0 1|@fluid stokes saffman magnus rotation
 @other;@other_forces 2 0 0 1|@other_close""".replace("\n", "|").split("|")
 OF_BONDS = """create_bonds single/bond 1 1 2|create_bonds single/bond 2 1 3;run 5 pre no|create_bonds many all all 1 0 1.0
 special_bonds lj 0 1 1 coul 0 1 1;create_bonds many all all 1 0 1.0;special_bonds lj 0 1 1 coul 1 1 1|bond_coeff 1 1e3 1e3 50 50 9 9 9 9 0 0 0 0

@@ -2,7 +2,12 @@
 """A session as text that a user can run: an input script, or a program where a partner takes part; with its files."""
 
 
-CALLS = {"advance": "partner.advance({0})", "save": "{0} = partner.save()", "restore": "partner.restore({0})",
+FLUID = """low, high, _, _, _, periodic, _ = lmp.extract_box()
+room = [0.0 if along else 5.0 for along in periodic]
+fluid = partner.fluid_grid([a - b for a, b in zip(low, room)], [a + b for a, b in zip(high, room)], (2, 2, 2), "tophat 1")
+fluid.drag_law("{all}", 0.1, 0.05)
+fluid.put([[0.3, 0.0, 0.5]] * 8, vorticity=[[0.2, -0.5, 1.0]] * 8)"""
+CALLS = {"fluid": FLUID, "advance": "partner.advance({0})", "save": "{0} = partner.save()", "restore": "partner.restore({0})",
          "discard": "{0}.discard()", "set_up": "partner.set_up()", "close": "partner.close(); partner = Partner(lmp)",
          "put_forces": "partner.put_forces([{0}], [{rest}])", "put_drag": "partner.put_drag([{0}], [{1}], [{last}])",
          "put_state": "partner.body('{0}').put_state([{state}], {steps})", "watch": "partner.body('{0}').watch()",
@@ -11,7 +16,7 @@ CALLS = {"advance": "partner.advance({0})", "save": "{0} = partner.save()", "res
 
 
 def _call(name, words):
-    return CALLS[name].format(*words, rest=", ".join(words[1:]), last=", ".join(words[2:]), state=", ".join(words[1:-1]),
+    return CALLS[name].format(*words, all=" ".join(words), rest=", ".join(words[1:]), last=", ".join(words[2:]), state=", ".join(words[1:-1]),
                               steps=words[-1] if words else "")
 
 

@@ -56,6 +56,31 @@ fix weight all gravity 0.1 vector 0 0 -1
 fix floor all wall/gran hooke/history 200.0 NULL 5.0 NULL 0.5 1 zplane -1.0 NULL
 """ + OUTPUT
 TALUS = ["-sf", "talus"]
+# an atom style with a topology that the script does not use
+UNUSED = """
+units lj
+boundary m m m
+atom_style {style}
+newton off
+comm_modify vel yes
+region box block 0 6 0 6 0 6
+create_box 1 box {types}
+create_atoms 1 random 80 7 NULL overlap 1.0 maxtry 500
+set group all diameter 1 density 1
+velocity all create 1.0 3
+{zero}
+neighbor 0.3 bin
+timestep 0.005
+pair_style gran/hooke/history 200.0 NULL 5.0 NULL 0.5 1
+pair_coeff * *
+fix move all nve/sphere
+fix weight all gravity 1.0 vector 0 0 -1
+fix floor all wall/gran hooke/history 200.0 NULL 5.0 NULL 0.5 1 zplane 0.0 6.0
+thermo 100
+dump d all custom 100 state id x y z vx vy vz omegax omegay omegaz
+dump_modify d format float %.17g
+run 300
+"""
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
 # of the older host; what the newer one does without words has tests of its own
 OLDER_WORDS = " frame particle damping dem" if NEW else ""
@@ -111,6 +136,18 @@ class SuffixBonds(SceneCase):
         self.assert_accelerated("pair gran/hooke/history", "bond bpm/rotational", "fix move nve/bpm/sphere",
                                 "fix floor wall/gran", "fix weight gravity")
         self.assertIn("through the arrays of LAMMPS: there are bonds", self.log)
+
+    def test_styles_without_forces(self):
+        """Bonds and angles of style zero leave steps in the records, with the bits of an atom style without them."""
+        unused = dict(style="hybrid sphere molecular", types="bond/types 1 angle/types 1",
+                      zero="bond_style zero\nbond_coeff *\nangle_style zero\nangle_coeff *")
+        for np in 1, 2:
+            states = []
+            for words in unused, dict(style="sphere", types="", zero=""):
+                log = self.run_lammps(UNUSED.format(**words), np=np, arguments=TALUS).log
+                self.assertRegex(log, "steps without output +in the records")
+                states.append([sorted(frame.splitlines()) for frame in self.read("state").split("TIMESTEP")])
+            self.assertEqual(*states)
 
     def test_bonds_that_last(self):
         for np in 1, 2, 4:

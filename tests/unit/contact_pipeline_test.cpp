@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -55,8 +57,16 @@ void expect_same_contacts(const TestRank &rank, const BruteForce &slow_reference
   ASSERT_EQ(ContactSurvey(rank.pipeline).count_contacts(),
             static_cast<double>(slow_reference.contacts.size()));
   std::set<std::pair<int, int>> seen;
+  std::array<double, VirialSums::size> virial{}, scale{};
   for (const TalliedContact &r : rank.tally) {
     const int i = rank.particle[r.i], j = rank.particle[r.j];
+    for (int n = 0; n < VirialSums::size; n++) {
+      constexpr int of_force[] = {0, 1, 2, 1, 2, 2}, of_separation[] = {0, 1, 2, 0, 0, 1};
+      const double one = 0.5 * ((r.i < rank.owned) + (r.j < rank.owned)) * r.force[of_force[n]] *
+                         r.separation[of_separation[n]];
+      virial[n] += one;
+      scale[n] += std::fabs(one);
+    }
     ASSERT_TRUE(seen.insert(std::minmax(i, j)).second) << "reported twice";
     const auto found = slow_reference.contacts.find(std::minmax(i, j));
     ASSERT_NE(found, slow_reference.contacts.end()) << "reported without contact";
@@ -75,6 +85,8 @@ void expect_same_contacts(const TestRank &rank, const BruteForce &slow_reference
                       expected.out.force_scale);
     ASSERT_TRUE(!expected.out.clear_case || (h.c[3] > 0.0) == expected.out.sliding);
   }
+  for (int n = 0; n < VirialSums::size; n++)
+    ASSERT_NEAR(rank.virial[n], virial[n], 1e-13 * scale[n]) << n;
 }
 
 class Pipeline : public testing::TestWithParam<Scene> {};
@@ -236,8 +248,15 @@ TEST_P(Pipeline, ThreadsAndPhasesComputeEveryPairOnce)
       EXPECT_EQ(partners_in_order(divided), partners_in_order(simple));
       EXPECT_EQ(divided.force, simple.force);
       EXPECT_EQ(divided.torque, simple.torque);
+      EXPECT_EQ(divided.virial, simple.virial);
       p.move(20.0 * dt, 0.2, random);
     }
+    for (TestRank *rank : {&simple, &divided}) {
+      rank->reports = false;    // which one thread makes
+      rank->compute(p, dt, true);
+    }
+    EXPECT_EQ(divided.force, simple.force);
+    EXPECT_EQ(divided.virial, simple.virial);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "packing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -28,6 +29,7 @@ class TestRank {
   int owned = 0;
   std::vector<Vector> force, torque;    ///< by particle of the packing; of owned ones
   std::vector<Talus::TalliedContact> tally;
+  std::array<double, Talus::VirialSums::size> virial{};
 
   explicit TestRank(const Talus::LawTable &laws, int rank = 0) : store(rank)
   {
@@ -126,7 +128,9 @@ class TestRank {
     tally.clear();
     const std::function<void(const Talus::TalliedContact &)> keep =
         [this](const Talus::TalliedContact &contact) { tally.push_back(contact); };
-    run(view, {dt, advance, reports ? &keep : nullptr});
+    Talus::VirialSums sums;
+    run(view, {dt, advance, reports ? &keep : nullptr, &sums});
+    for (int n = 0; n < Talus::VirialSums::size; n++) virial[n] = sums.value(n);
 
     force.assign(p.size(), Vector{});
     torque.assign(p.size(), Vector{});

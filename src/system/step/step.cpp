@@ -76,14 +76,15 @@ void Step::make_pairs_known()
   system.rebuild().renumber_pairs();
 }
 
-void Step::compute_contacts(const std::function<void(const TalliedContact &)> *tally)
+void Step::compute_contacts(const std::function<void(const TalliedContact &)> *tally,
+                            VirialSums *virial)
 {
   make_pairs_known();
   // a set-up is a step of no duration, or none
   const bool setting_up = update->setupflag != 0;
   const bool limits =
       system.pair_style().traits().limits_at_setup && !contacts().law_table().second_order();
-  ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, tally,
+  ContactStep step{setting_up && limits ? 0.0 : update->dt, !setting_up || limits, tally, virial,
                    system.account().begin_step(setting_up)};
   parts.for_outputs.forget();
   const bool alone = system.pair_style().is_alone();

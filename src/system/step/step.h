@@ -67,8 +67,10 @@ class Step : protected LAMMPS_NS::Pointers {
   double moved_since_rebuild() { return largest_move.exactly(contacts()); }
   /// Others have moved particles, at the end of a step.
   void forget_moves() { largest_move.forget(); }
-  /// The forces of all contacts between particles. `tally`, if given, is called for each of them.
-  void compute_contacts(const std::function<void(const TalliedContact &)> *tally);
+  /// The forces of all contacts between particles. `tally`, if given, is called for each of them; `virial` is made
+  /// that of them all, if it is given, which needs no tally and has no part of particles with a shape.
+  void compute_contacts(const std::function<void(const TalliedContact &)> *tally,
+                        VirialSums *virial);
   /// Changes of velocities are kept: for second order, and for the work of contacts.
   bool needs_changes() const { return needs_changes(parts.movers.order()); }
 

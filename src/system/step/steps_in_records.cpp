@@ -3,6 +3,7 @@
 #include "system/step/steps_in_records.h"
 
 #include "system/contacts/fix_contact_store.h"
+#include "system/host/bonded_styles.h"
 #include "system/host/fix_list.h"
 #include "system/host/system_style.h"
 #include "system/shapes/shaped_particles.h"
@@ -77,8 +78,7 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
     return std::string("run style ") + update->integrate_style;
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";
-  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
-    return "there are bonds or long-range forces";
+  if (has_bonded_forces(*force) || force->kspace) return "there are bonds or long-range forces";
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
   if (!system.pair_style().is_alone() && !system.law_table().has_friction())
