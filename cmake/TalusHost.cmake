@@ -260,6 +260,14 @@ if(HOST_PKG_BPM)
   set(TALUS_HOST_HAS_BPM 1)
 endif()
 talus_look_into_host(TALUS_HOST_HAS_BOND_FRAMES BPM/bond_bpm_rotational.h "frame_style")
+talus_look_into_host(TALUS_HOST_HAS_BOND_STAGES BPM/bond_bpm.h "void pre_compute\\(")
+talus_look_into_host(TALUS_HOST_HAS_SPRING_ENERGY BPM/bond_bpm_spring.cpp "ebond = -")
+talus_look_into_host(TALUS_HOST_KEEPS_SPRINGS_IN_SETUP BPM/bond_bpm_spring.cpp "setupflag == 0")
+talus_look_into_host(TALUS_HOST_FLAGS_SPRING_VOLUMES BPM/bond_bpm_spring.h "vol0_calculated")
+set(talus_bond_facts "")
+foreach(fact HAS_BOND_FRAMES HAS_BOND_STAGES HAS_SPRING_ENERGY KEEPS_SPRINGS_IN_SETUP FLAGS_SPRING_VOLUMES)
+  list(APPEND talus_bond_facts TALUS_HOST_${fact}=${TALUS_HOST_${fact}})
+endforeach()
 
 # Headers and definitions only. MPI and LAMMPS come from the process the plugin is loaded into:
 # linking our own copies is how two MPI libraries end up in it.

@@ -30,12 +30,12 @@ endif()
 
 # The same of package BPM.
 if(NOT TALUS_HOST_HAS_BPM)
-  list(FILTER talus_style_sources EXCLUDE REGEX "_bpm_[a-z]+_talus.cpp$")
+  list(FILTER talus_style_sources EXCLUDE REGEX "_bpm_([a-z]+_)?talus.cpp$")
 endif()
 set(talus_bpm_sources ${talus_style_sources})
-list(FILTER talus_bpm_sources INCLUDE REGEX "_bpm_[a-z]+_talus.cpp$")
+list(FILTER talus_bpm_sources INCLUDE REGEX "_bpm_([a-z]+_)?talus.cpp$")
 set_source_files_properties(${talus_bpm_sources} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-  COMPILE_DEFINITIONS TALUS_HOST_HAS_BOND_FRAMES=${TALUS_HOST_HAS_BOND_FRAMES})
+  COMPILE_DEFINITIONS "${talus_bond_facts}")
 
 # talus_add_style_objects(suffix): the objects of the styles, talus_styles${suffix}, on top of the code with that suffix.
 function(talus_add_style_objects suffix)

@@ -7,6 +7,7 @@
 #include "base/vectors.h"
 #if TALUS_HOST_HAS_BPM
 #include "bond/bond_bpm_rotational_talus.h"
+#include "bond/bond_bpm_spring_talus.h"
 #endif
 #include "comm/comm_proxy.h"
 #include "comm/proxy_command.h"
@@ -209,6 +210,7 @@ TALUS_REGISTER_STYLES(void *lmp, void *handle, void *registerfunc)
 #if TALUS_HOST_HAS_BPM
   registry.bond<BondBPMRotationalTalus>("bpm/rotational/talus",
                                         TALUS_INFO "bond style bpm/rotational/talus");
+  registry.bond<BondBPMSpringTalus>("bpm/spring/talus", TALUS_INFO "bond style bpm/spring/talus");
   registry.fix<FixNVEBPMSphereTalus>("nve/bpm/sphere/talus",
                                      TALUS_INFO "fix style nve/bpm/sphere/talus");
 #endif

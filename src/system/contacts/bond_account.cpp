@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 
 using LAMMPS_NS::Atom;
 
@@ -20,9 +21,9 @@ BondAccount *BondAccount::of(LAMMPS_NS::Bond *bond)
 
 double BondAccount::half_of_work(const Atom &atom) const
 {
-  const double *const v = atom.v[0], *const omega = atom.omega[0];
-  double power = 0.0;
-  for (std::size_t k = 0; k < forces.size(); k++) power += forces[k] * v[k] + torques[k] * omega[k];
+  double power = std::inner_product(forces.begin(), forces.end(), atom.v[0], 0.0);
+  if (!torques.empty())
+    power = std::inner_product(torques.begin(), torques.end(), atom.omega[0], power);
   return -0.5 * dt * power;
 }
 
@@ -44,15 +45,23 @@ void BondAccount::begin_step(const Atom &atom, double of_dt, bool again, double 
   first_half = 0.0;
   dt = of_dt;
   forces.assign(3 * static_cast<std::size_t>(atom.nlocal), 0.0);
+  torques.clear();
+}
+
+double *BondAccount::torque_of_bonds()
+{
   torques.assign(forces.size(), 0.0);
+  return torques.data();
 }
 
 void BondAccount::end_step(const Atom &atom)
 {
   if (forces.empty()) return;
-  double *const f = atom.f[0], *const t = atom.torque[0];
-  std::transform(forces.begin(), forces.end(), f, f, std::plus<>());
-  std::transform(torques.begin(), torques.end(), t, t, std::plus<>());
+  const auto add = [](const std::vector<double> &loads, double *to) {
+    std::transform(loads.begin(), loads.end(), to, to, std::plus<>());
+  };
+  add(forces, atom.f[0]);
+  if (!torques.empty()) add(torques, atom.torque[0]);
   if (!half_is_done) first_half = half_of_work(atom);
 }
 

@@ -49,9 +49,10 @@ class BondAccount {
   /// Before forces are computed: what the last ones have done by now. `again`: in set-up, those of the last step, if
   /// there was one; `counted`: as above.
   void begin_step(const LAMMPS_NS::Atom &atom, double of_dt, bool again, double counted);
-  /// Rows of three by owned particle, zeros after begin_step(), which receive the loads of bonds alone.
+  /// Rows of three by owned particle, zeros after begin_step(), which receive the loads of bonds alone; torques are called for
+  /// once in a step, by bonds that have them.
   double *force_of_bonds() { return forces.data(); }
-  double *torque_of_bonds() { return torques.data(); }
+  double *torque_of_bonds();
   void add_broken(double energy) { broken += energy; }
   /// Adds these loads to the arrays of LAMMPS.
   void end_step(const LAMMPS_NS::Atom &atom);
