@@ -1,23 +1,26 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Data files of bonded spheres, atom style bpm/sphere, for tests."""
+"""Data files of bonded spheres for tests."""
 
 import itertools
 import math
 import random
 
 
-def write_bonded_data(path, box, spheres, bonds, bond_types=1):
+def write_bonded_data(path, box, spheres, bonds, bond_types=1, style="bpm/sphere"):
     with open(path, "w") as file:
-        file.write(bonded_data(box, spheres, bonds, bond_types))
+        file.write(bonded_data(box, spheres, bonds, bond_types, style))
 
 
-def bonded_data(box, spheres, bonds, bond_types=1):
-    """spheres: (x, v, omega, diameter, density); bonds: (type, i, j) with IDs from 1, the places in spheres."""
+def bonded_data(box, spheres, bonds, bond_types=1, style="bpm/sphere"):
+    """spheres: (x, v, omega, diameter, density); bonds: (type, i, j) with IDs from 1, the places in spheres. style: of atoms, bpm/sphere or
+    hybrid sphere bond."""
+    row = "{n} 1 1 {diameter!r} {density!r} {place}" if style == "bpm/sphere" else "{n} 1 {place} {diameter!r} {density!r} 1"
     rows = ["Talus test", "", f"{len(spheres)} atoms", "1 atom types", f"{len(bonds)} bonds", f"{bond_types} bond types",
             "20 extra bond per atom", "40 extra special per atom"]
     rows += [f"{low!r} {high!r} {axis}lo {axis}hi" for axis, (low, high) in zip("xyz", box)]
-    rows += ["", "Atoms # bpm/sphere", ""]
-    rows += [f"{n} 1 1 {diameter!r} {density!r} " + " ".join(map(repr, x)) for n, (x, _, _, diameter, density) in enumerate(spheres, 1)]
+    rows += ["", f"Atoms # {style.split()[0]}", ""]
+    rows += [row.format(n=n, diameter=diameter, density=density, place=" ".join(map(repr, x)))
+             for n, (x, _, _, diameter, density) in enumerate(spheres, 1)]
     rows += ["", "Velocities", ""]
     rows += [f"{n} " + " ".join(repr(float(c)) for c in (*v, *omega)) for n, (_, v, omega, _, _) in enumerate(spheres, 1)]
     if bonds:
