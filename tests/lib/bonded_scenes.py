@@ -59,9 +59,11 @@ ACCELERATED = r"(?m)^  {} +accelerated$"
 
 class BondedScenes:
     """Of a SceneCase with BOND, the style; coefficients WHOLE, of bonds that last, and BRITTLE; LACKING, words that restart files of LAMMPS
-    4 Feb 2025 lack, and TOLD of them; and ERROR, relative to stock while bonds last. WORDS: those of all runs without a `frame`."""
+    4 Feb 2025 lack, and TOLD of them; and ERROR, relative to stock while bonds last. WORDS: those of all runs without a `frame`;
+    UNTIL_BROKEN: steps after which many of the brittle ones are."""
 
     WORDS = ""
+    UNTIL_BROKEN = 80
 
     def setUp(self):
         super().setUp()
@@ -126,7 +128,7 @@ class BondedScenes:
     def test_bonds_that_break(self):
         """In the same order; from then on their particles touch, in the same step, without new neighbor lists."""
         for np in 1, 2:
-            folder = self.compare(2.5 * self.ERROR, np=np, **self.breaking(commands="run 80"))
+            folder = self.compare(2.5 * self.ERROR, np=np, **self.breaking(commands=f"run {self.UNTIL_BROKEN}"))
             stock, talus = self.broken(folder), self.broken(self.folder)
             self.assertGreater(len(stock), 20)
             self.assertEqual(sorted(stock), sorted(talus))
@@ -183,11 +185,11 @@ class BondedScenes:
 
     def test_breaking_after_a_restart(self):
         """Bonds that are left go on as they were: with LAMMPS those of a particle take the places of others in that run."""
-        whole = self.simulate(TALUS, **self.breaking(commands="run 20\nrun 60", every=20))[-1]
+        whole = self.simulate(TALUS, **self.breaking(commands=f"run 20\nrun {self.UNTIL_BROKEN - 20}", every=20))[-1]
         self.assertGreater(sum(step > 20 for step, _, _ in self.broken(self.folder)), 10)
         self.simulate(TALUS, **self.breaking(commands="run 20\nwrite_restart middle", every=20))
         for np in 1, 2:
-            last = self.simulate(TALUS, np=np, folder=self.folder, text=RESTARTED, commands="run 60", every=20)[-1]
+            last = self.simulate(TALUS, np=np, folder=self.folder, text=RESTARTED, commands=f"run {self.UNTIL_BROKEN - 20}", every=20)[-1]
             self.assert_same_bits(whole, last, whole.columns)
 
     def refused(self, np, **options):
