@@ -45,7 +45,7 @@ class LiftLaw {
   /// Takes the law with this number; false: there is another one of its kind already.
   bool take(int which);
 
-  bool lifts() const { return shear != NONE || turn != NONE; }
+  bool any() const { return shear != NONE || turn != NONE || rotation; }
   bool needs_vorticity() const { return shear != NONE; }
   bool drags_rotation() const { return rotation; }
 

@@ -109,9 +109,9 @@ TEST(LiftLaw, OneOfAKind)
   LiftLaw one;
   for (const int which : {0, 2, 4}) EXPECT_TRUE(one.take(which));
   for (int which = 0; which < 5; which++) EXPECT_FALSE(one.take(which));
-  EXPECT_TRUE(one.lifts() && one.needs_vorticity() && one.drags_rotation());
+  EXPECT_TRUE(one.any() && one.needs_vorticity() && one.drags_rotation());
   EXPECT_FALSE(law("magnus").needs_vorticity());
-  EXPECT_FALSE(law("rotation").lifts());
+  EXPECT_FALSE(LiftLaw().any());
 }
 
 }    // namespace

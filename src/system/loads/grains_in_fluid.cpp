@@ -237,72 +237,67 @@ void GrainsInFluid::tell_shape(const ShapedParticles *shapes, int i, const Vecto
   grain.crosswise = shadows.crosswise(type, shape, turned, along);
 }
 
-/* To the last one with drag. */
+/* Pressure gradient and vorticity are 0 where there are none. */
 
-void GrainsInFluid::add_lift(const LiftLaw &lift, const TurningGrain &grain, FluidLoads &loads)
+std::vector<GrainsInFluid::FluidAtGrain>
+GrainsInFluid::fluid_at_grains(const std::vector<double> &solid, const FluidFields &fields)
 {
-  const Vector3<double> force = lift.force(grain);
-  double *const u = &loads.velocity[loads.velocity.size() - 3];
-  const double c = loads.coefficient.back();
-  u[0] += force.x / c;
-  u[1] += force.y / c;
-  u[2] += force.z / c;
+  const std::vector<double> *const vectors[] = {&fields.velocity, fields.pressure_gradient,
+                                                fields.vorticity};
+  std::vector<double> of_cells;
+  int width = 1;
+  for (const auto *field : vectors) width += field ? 3 : 0;
+  for (int n = 0; n < num_cells(); n++) {
+    of_cells.push_back(1.0 - solid[n]);
+    for (const auto *field : vectors)
+      if (field) of_cells.insert(of_cells.end(), &(*field)[3 * n], &(*field)[3 * n] + 3);
+  }
+  const std::vector<double> at_grains = values_at_grains(of_cells, width);
+  std::vector<FluidAtGrain> found(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *next = &at_grains[static_cast<std::size_t>(i) * width];
+    found[i].porosity = std::clamp(*next++, least_porosity, 1.0);
+    Vector3<double> *const to[] = {&found[i].velocity, &found[i].pressure_gradient,
+                                   &found[i].vorticity};
+    for (int k = 0; k < 3; k++) {
+      if (!vectors[k]) continue;
+      *to[k] = vector(next);
+      next += 3;
+    }
+  }
+  return found;
 }
 
 FluidLoads GrainsInFluid::find_loads(const ShapedParticles *shapes, const DragLaw &law,
                                      const LiftLaw &lift, const FluidFields &fields)
 {
-  const bool has_gradient = fields.pressure_gradient != nullptr,
-             has_vorticity = fields.vorticity != nullptr;
-  const int gradient = 4, vorticity = gradient + (has_gradient ? 3 : 0),
-            width = vorticity + (has_vorticity ? 3 : 0);
-  const std::vector<double> solid = solid_for(law.depends_on_porosity(), shapes);
-  std::vector<double> of_cells;
-  for (int n = 0; n < num_cells(); n++) {
-    of_cells.push_back(1.0 - solid[n]);
-    for (const std::vector<double> *field :
-         {&fields.velocity, fields.pressure_gradient, fields.vorticity})
-      for (int d = 0; d < 3 && field; d++) of_cells.push_back((*field)[3 * n + d]);
-  }
-  const std::vector<double> at_grains = values_at_grains(of_cells, width);
-
+  const std::vector<FluidAtGrain> fluid =
+      fluid_at_grains(solid_for(law.depends_on_porosity(), shapes), fields);
+  const Vector3<double> hydrostatic =
+      fields.gravity ? fields.density * vector(fields.gravity) : Vector3<double>{0.0, 0.0, 0.0};
   FluidLoads loads;
   ShapeShadows shadows;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_in_group(i)) continue;
-    const double *const at = &at_grains[static_cast<std::size_t>(i) * width], *const u = at + 1;
-    const double *const v = atom->v[i], volume = particle_volume(*atom, shapes, i);
-    const Vector3<double> slip = vector(u) - vector(v);
-    const double speed = distance(u, v);
-    GrainInFluid grain{diameter_of(volume), speed, std::clamp(at[0], least_porosity, 1.0),
-                       fields.density, fields.viscosity};
+    const FluidAtGrain &here = fluid[i];
+    const double volume = particle_volume(*atom, shapes, i);
+    const Vector3<double> slip = here.velocity - vector(atom->v[i]);
+    GrainInFluid grain{diameter_of(volume), length(slip), here.porosity, fields.density,
+                       fields.viscosity};
     if (law.depends_on_shape()) tell_shape(shapes, i, slip, shadows, grain);
     const double c = law.coefficient(grain);
-    if (c > 0.0) {
-      loads.ids.push_back(atom->tag[i]);
-      loads.coefficient.push_back(c);
-      loads.velocity.insert(loads.velocity.end(), u, u + 3);
+    const std::int64_t tag = atom->tag[i];
+    if (lift.any()) {
+      const TurningGrain turning{grain.diameter, slip,           vector(atom->omega[i]),
+                                 here.vorticity, fields.density, fields.viscosity};
+      if (c > 0.0) loads.add_drag(tag, c, here.velocity + (1.0 / c) * lift.force(turning));
+      if (lift.drags_rotation() && !(shapes && shapes->is_shaped(atom->type[i])))
+        loads.add_rotation(tag, LiftLaw::rotation_coefficient(turning), 0.5 * here.vorticity);
+    } else if (c > 0.0) {
+      loads.add_drag(tag, c, here.velocity);
     }
-    const TurningGrain turning{
-        grain.diameter,
-        slip,
-        vector(atom->omega[i]),
-        has_vorticity ? vector(at + vorticity) : Vector3<double>{0.0, 0.0, 0.0},
-        fields.density,
-        fields.viscosity};
-    if (c > 0.0 && lift.lifts()) add_lift(lift, turning, loads);
-    if (lift.drags_rotation() && !(shapes && shapes->is_shaped(atom->type[i]))) {
-      loads.turned.push_back(atom->tag[i]);
-      loads.spin_coefficient.push_back(LiftLaw::rotation_coefficient(turning));
-      for (int d = 0; d < 3; d++)
-        loads.omega.push_back(has_vorticity ? 0.5 * at[vorticity + d] : 0.0);
-    }
-    if (!has_gradient && !fields.gravity) continue;
-    loads.pushed.push_back(atom->tag[i]);
-    for (int d = 0; d < 3; d++)
-      loads.force.push_back(-volume *
-                            ((has_gradient ? at[gradient + d] : 0.0) +
-                             (fields.gravity ? fields.density * fields.gravity[d] : 0.0)));
+    if (fields.pressure_gradient || fields.gravity)
+      loads.add_force(tag, -volume * (here.pressure_gradient + hydrostatic));
   }
   return loads;
 }

@@ -50,6 +50,24 @@ struct FluidLoads {
   std::vector<double> force;
   std::vector<std::int64_t> turned;
   std::vector<double> spin_coefficient, omega;
+
+  void add_drag(std::int64_t id, double c, const Vector3<double> &u)
+  {
+    ids.push_back(id);
+    coefficient.push_back(c);
+    velocity.insert(velocity.end(), {u.x, u.y, u.z});
+  }
+  void add_force(std::int64_t id, const Vector3<double> &f)
+  {
+    pushed.push_back(id);
+    force.insert(force.end(), {f.x, f.y, f.z});
+  }
+  void add_rotation(std::int64_t id, double c, const Vector3<double> &of_fluid)
+  {
+    turned.push_back(id);
+    spin_coefficient.push_back(c);
+    omega.insert(omega.end(), {of_fluid.x, of_fluid.y, of_fluid.z});
+  }
 };
 
 /// What the cells of this rank have for heat, in the order of places: velocity 3 each.
@@ -107,7 +125,12 @@ class GrainsInFluid : protected LAMMPS_NS::Pointers {
   void update_shares();
   void tell_shape(const ShapedParticles *shapes, int i, const Vector3<double> &slip,
                   ShapeShadows &shadows, GrainInFluid &grain) const;
-  static void add_lift(const LiftLaw &lift, const TurningGrain &grain, FluidLoads &loads);
+  struct FluidAtGrain {
+    double porosity;
+    Vector3<double> velocity{}, pressure_gradient{}, vorticity{};
+  };
+  std::vector<FluidAtGrain> fluid_at_grains(const std::vector<double> &solid,
+                                            const FluidFields &fields);
   std::vector<double> solid_for(bool needed, const ShapedParticles *shapes);
   std::vector<double> sum(int width, const Amounts &amounts);
   std::vector<double> values_at_grains(const std::vector<double> &of_cells, int width);
