@@ -49,6 +49,24 @@ void require_made(LAMMPS *lmp, bigint mine, bigint wanted)
                     wanted - made, wanted);
 }
 
+/* Of fix property/atom, which leaves those of the particle or ghost that had this place before. */
+
+void clear_properties(Atom &atom, int i)
+{
+  if (atom.molecule_flag) atom.molecule[i] = 0;
+  if (atom.q_flag) atom.q[i] = 0.0;
+  if (atom.temperature_flag) atom.temperature[i] = 0.0;
+  if (atom.heatflow_flag) atom.heatflow[i] = 0.0;
+  for (int k = 0; k < atom.nivector; k++)
+    if (atom.ivname[k]) atom.ivector[k][i] = 0;
+  for (int k = 0; k < atom.ndvector; k++)
+    if (atom.dvname[k]) atom.dvector[k][i] = 0.0;
+  for (int k = 0; k < atom.niarray; k++)
+    if (atom.ianame[k]) std::fill_n(atom.iarray[k][i], atom.icols[k], 0);
+  for (int k = 0; k < atom.ndarray; k++)
+    if (atom.daname[k]) std::fill_n(atom.darray[k][i], atom.dcols[k], 0.0);
+}
+
 }    // namespace
 
 std::vector<KnownSphere> LAMMPS_NS::spheres_in_box(LAMMPS *lmp, const Vector3<double> &lo,
@@ -103,6 +121,7 @@ int LAMMPS_NS::create_spheres(LAMMPS *lmp, const std::vector<KnownSphere> &spher
     atom->tag[i] = last;
     atom->radius[i] = sphere.radius;
     atom->rmass[i] = density * (four_thirds_pi * sphere.radius * sphere.radius * sphere.radius);
+    clear_properties(*atom, i);
   }
   atom->data_fix_compute_variable(first, atom->nlocal);
   require_made(lmp, atom->nlocal - first, static_cast<bigint>(spheres.size()));

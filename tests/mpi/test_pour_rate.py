@@ -110,6 +110,20 @@ class Pour(SceneCase):
         for v in frame.column("vx").values():
             self.assertEqual(v, 0.1)
 
+    def test_properties_of_new_spheres(self):
+        """0, and not those of the ghost or particle that was at their place in memory."""
+        lying = "".join(f"create_atoms 1 single {0.05 + 0.15 * k} 0.5 0.06 units box\n" for k in range(6))
+        script = (SCENE + "fix hot all property/atom temperature heatflow mol d_mark i_note d2_pair 2 ghost yes\n" + lying +
+                  "set group all diameter 0.08 density 2500 temperature 4 mol 9 d_mark 7 i_note 3 d2_pair[1] 5 d2_pair[2] 6\n" +
+                  FIXES.format(words=WORDS) + "compute all all property/atom temperature mol d_mark i_note d2_pair[1] d2_pair[2]\nrun 300\n"
+                  "write_dump all custom state id c_all[*]\n")
+        for np in 1, 2:
+            self.run_lammps(script, np=np)
+            rows = read_dump(self.path("state"))[0].atoms
+            self.assertGreater(len(rows), 12)
+            for tag, row in rows.items():
+                self.assertEqual(list(row)[1:], [4, 9, 7, 3, 5, 6] if tag <= 6 else [0] * 6)
+
     def test_restart_and_end(self):
         whole = self.pour(commands="run 400\nrun 400\n")
         self.pour(commands="run 400\nwrite_restart half\n")
