@@ -163,8 +163,9 @@ class InputCase(SceneCase):
             spread = [max(two) for two in zip(*(distances(runs[PLAIN, 1], runs[key], name, scale)
                                                 for key in ((PLAIN, 2), (TWIN, 1))))]
             allowed = [PRINTED + AHEAD * max(value, given.shared.get(version(), 0.0)) for value in largest_up_to_next(spread)]
+            more = given.volume if name in ("Pxx", "Pyy", "Pzz") else 0.0
             for k, off in enumerate(distances(plain, talus, name, scale)):
-                self.assertLessEqual(off, allowed[k], f"{name} in line {k + 1} of the output on {ranks} ranks")
+                self.assertLessEqual(off, allowed[k] + more, f"{name} in line {k + 1} of the output on {ranks} ranks")
 
     def check_table(self, given, log, ranks):
         found = stock_inputs.differences(stock_inputs.read_tables(log), stock_inputs.read_expected(given.tables))

@@ -26,7 +26,9 @@ class StockInput:
     long, both, never.  variables: for -var.  since: first version that has it.
     error: {version: error of that LAMMPS itself}.
     shared: {version: by how much that LAMMPS is wrong in a way that its twins share: positions in diameters, printed numbers of the
-    largest of their column}."""
+    largest of their column}.
+    volume: by how much the pressure may be another one for a while where rebuilds that Talus makes of its own accord, every 1000 steps, give a
+    box with shrink-wrapped sides another volume."""
     name: str
     tables: str
     steps: int
@@ -39,6 +41,7 @@ class StockInput:
     since: int = 0
     error: dict = dataclasses.field(default_factory=dict)
     shared: dict = dataclasses.field(default_factory=dict)
+    volume: float = 0.0
 
     @property
     def title(self):
@@ -204,7 +207,7 @@ steps without output              through the arrays of LAMMPS: there are bonds 
 """, steps=5000, every=1000, long_steps=20000, bench_steps=10000,
                # angles come from a cosine: those of a new bond are up to 2e-8 in place of 0 in its second step, which damping by rates
                # of angles turns into motion; without damping of twist and bending 4e-9 is left of it
-               shared={20260704: 3e-8}),
+               shared={20260704: 3e-8}, volume=2e-4),
 ]
 
 
