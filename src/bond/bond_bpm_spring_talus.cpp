@@ -128,8 +128,8 @@ int BondBPMSpringTalus::pack_forward_comm(int n, int *list, double *buf, int pbc
     return BondBPMSpring::pack_forward_comm(n, list, buf, pbc_flag, pbc);
   const double *const now = atom->dvector[index_vol], *const at_rest = atom->dvector[index_vol0];
   for (int k = 0; k < n; k++) {
-    buf[2 * k] = now[list[k]];
-    buf[2 * k + 1] = at_rest[list[k]];
+    *buf++ = now[list[k]];
+    *buf++ = at_rest[list[k]];
   }
   return 2 * n;
 }
@@ -138,8 +138,8 @@ void BondBPMSpringTalus::unpack_forward_comm(int n, int first, double *buf)
 {
   if (!reason_for_stock().empty()) return BondBPMSpring::unpack_forward_comm(n, first, buf);
   double *const now = atom->dvector[index_vol], *const at_rest = atom->dvector[index_vol0];
-  for (int k = 0; k < n; k++) {
-    now[first + k] = buf[2 * k];
-    at_rest[first + k] = buf[2 * k + 1];
+  for (int i = first; i < first + n; i++) {
+    now[i] = *buf++;
+    at_rest[i] = *buf++;
   }
 }
