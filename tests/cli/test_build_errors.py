@@ -87,7 +87,8 @@ class ScriptCase(unittest.TestCase):
 
     def run_command(self, command, **environment):
         env = {key: value for key, value in os.environ.items()
-               if key not in ("LAMMPS_SOURCE_DIR", "LAMMPS_BINARY_DIR", "LAMMPS_EXECUTABLE", "LAMMPS_PLUGIN_PATH", "CI", "TALUS_INPUTS")}
+               if key not in ("LAMMPS_SOURCE_DIR", "LAMMPS_BINARY_DIR", "LAMMPS_EXECUTABLE", "LAMMPS_PLUGIN_PATH", "CI", "TALUS_INPUTS",
+                              "TALUS_STRICT", "TALUS_LARGE_TESTS", "TALUS_ARCH")}
         env.update({"PATH": self.path("bin") + os.pathsep + self.search_path,
                     "XDG_CACHE_HOME": self.path("cache"), "TALUS_SKIP_PACKAGES": "1",
                     **environment})

@@ -124,7 +124,13 @@ def create(rng, scene):
     cluster = bodies.Cluster(scene.grains)
     x = bodies.plus(cluster.center, cluster.size + rng.choice((0.4, 1.0)), (0, 0, 1))
     return [line("create_atoms 1 single", place(x), "units box"), line("group fresh id >", len(scene.grains)),
-            line("set group fresh diameter", length(0.9), "density", number(1, -3, 1, 0))]
+            line("set group fresh diameter", length(0.9), "density", number(1, -3, 1, 0)), *_properties(scene)]
+
+
+def _properties(scene):
+    """Of particles that LAMMPS has created: it leaves those of what was at their place in memory."""
+    hot = [line("set group fresh temperature 1")] if "hot" in scene.traits else []
+    return hot + ([line("set group fresh d_liquid 0")] if "wet" in scene.traits else [])
 
 
 def pour(rng, scene):

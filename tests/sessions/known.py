@@ -5,6 +5,7 @@ import re
 
 # (relation or "" of all, pattern of the fault, pattern of the input, what it is)
 KNOWN = [
+    ("robust", "Bond atom missing in image check", r"delete_atoms", "LAMMPS ends one rank where bonds of deleted particles are left"),
     ("", "FixUpdateSpecialBonds", r"bond_style bpm", "LAMMPS looks for partners of broken bonds that are beyond the ghosts"),
 ]
 
