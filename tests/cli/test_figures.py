@@ -227,14 +227,12 @@ class Figures(unittest.TestCase):
         order_1, *stock = [head.index(f"{name}: dt") + 2 for name in ("order 1", "stock", "granular")]     # columns of "times"
         choosing = read("doc", "choosing.md")
         row = next(row for row in table(choosing[choosing.index("## Which time step"):]) if row[0].startswith("motion of a few"))
-        words = re.search(r"order 2 needs ([\d.]+) to (\d+) times less.*?and (\d+) to (\d+)", " ".join(choosing.split()))
-        for error, columns, shown in (("1e-04", [order_1], row[4].split(" to ")), ("1e-04", stock, row[5].split(" to ")),
-                                      ("1e-03", stock, words.groups()[:2]), ("1e-04", stock, words.groups()[2:])):
+        for columns, shown in ([order_1], row[4].split(" to ")), (stock, row[5].split(" to ")):
             found = [min(float(cells[k].lstrip("~")) for k in columns if cells[k] != "-")
-                     for cells in rows if cells[1] == error and cells[0] in DAMPED]
+                     for cells in rows if cells[1] == "1e-04" and cells[0] in DAMPED]
             self.assertEqual(len(found), len(DAMPED))
             for number, value in zip(shown, (min(found), max(found))):
-                self.assert_rounded(number, value, f"{error}, columns {columns}")
+                self.assert_rounded(number, value, f"columns {columns}")
 
     def test_every_section_is_there(self):
         """What `scripts/bench all` runs has a section in the report."""
