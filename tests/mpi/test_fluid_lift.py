@@ -54,7 +54,7 @@ lmp, partner = scene(SCENE)
 with partner:
     fluid = partner.fluid_grid((-4, -4, -5), (4, 4, 5), (2, 2, 2), "tophat 2")
     still = [[0.0, 0.0, 0.0]] * 8
-""" + body + "\nlmp.close()\n"
+""" + body + "\nlmp.finalize()\n"
         return self.said(program, **options)
 
     def test_spin_decays(self):
@@ -150,7 +150,7 @@ with partner:
         found.append(flat(partner.particles([1, 2, 3, 4], "v")))
         partner.restore(start)
     say(lmp, found)
-lmp.close()
+lmp.finalize()
 """
         without, with_rotation = self.said(program)
         self.assertEqual(without, with_rotation)
