@@ -61,7 +61,7 @@ class SuffixSprings(BondedScenes, SceneCase):
     BOND = "bpm/spring"
     WHOLE = "30.0 2.0 0.3"
     BRITTLE = "30.0 0.03 0.3"
-    UNTIL_BROKEN = 130
+    UNTIL_BROKEN = 121    # LAMMPS 4 Jul 2026 then gives bonds that are left the lengths of others of their particle
     LACKING, TOLD = "break no smooth no", "no 'break'"
     ERROR = 1e-9
     VOLUMES = "volume/factor yes"

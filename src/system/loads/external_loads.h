@@ -15,7 +15,7 @@
 // moves, and frozen ones, bear drag at the velocity they have.
 //
 // Drag of rotation c_T (O - w), w the angular velocity, is taken in the same way: c_T/(1 + k c_T/I), I = 2/5 m r^2. Spheres of
-// clumps, frozen particles and those that nothing moves have none; nobody is told its impulse.
+// clumps, frozen particles and those that nothing moves have none; its impulse is not counted.
 //
 // Several partners of an instance each put their own: forces, torques and heat add up, and drag of several is
 // that of c = sum c_k and u = sum c_k u_k / c, of which each has c_k (u_k - v), with the same v; that of rotation too. As
@@ -164,6 +164,7 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void set(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] | some); }
   void unset(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] & ~some); }
   bool any_has(unsigned some) const;
+  bool has_put(int partner, unsigned kinds) const;
   bool is_idle(int i) const;
   void make_room();
   void resize(std::size_t size);

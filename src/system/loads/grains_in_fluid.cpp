@@ -35,12 +35,6 @@ Vector3<double> vector(const double *row)
   return {row[0], row[1], row[2]};
 }
 
-double distance(const double *a, const double *b)
-{
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                   (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 std::vector<int> numbers_by_place(const std::vector<OwnerExchange::Home> &homes, MPI_Comm ranks)
 {
   int me;
@@ -321,8 +315,8 @@ HeatLoads GrainsInFluid::find_heat(const ShapedParticles *shapes, const HeatLaw 
     const double *const at = &at_grains[static_cast<std::size_t>(i) * 5];
     const double d = diameter_of(particle_volume(*atom, shapes, i));
     const double nusselt =
-        law.nusselt({d, distance(at + 1, atom->v[i]), std::clamp(at[0], least_porosity, 1.0),
-                     fields.density, fields.viscosity},
+        law.nusselt({d, length(vector(at + 1) - vector(atom->v[i])),
+                     std::clamp(at[0], least_porosity, 1.0), fields.density, fields.viscosity},
                     prandtl);
     loads.ids.push_back(atom->tag[i]);
     loads.flow.push_back(nusselt * pi * d * fields.conductivity * (at[4] - atom->temperature[i]));
