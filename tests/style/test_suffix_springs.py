@@ -148,7 +148,8 @@ class SuffixSprings(BondedScenes, SceneCase):
                  "thermo_style custom step ke pe c_sums[12] c_sums[13] c_sums[14]\n"
                  "thermo_modify format float %.17g norm no\nvelocity all ramp vx 0 1.5 x 0 4 sum yes")
         for words, coeffs, limit in (("smooth no break no", "30.0 1.0 0.3", 4e-6), ("smooth no", "30.0 0.04 0.3", 4e-6)):
-            self.simulate(TALUS, pair="gran/hooke 1e-12 NULL 0.0 NULL 0.0 0", words=words, coeffs=f"bond_coeff * {coeffs}", more=lines, every=100, commands="timestep 0.001\nrun 2000")
+            self.simulate(TALUS, pair="gran/hooke 1e-12 NULL 0.0 NULL 0.0 0", words=words, coeffs=f"bond_coeff * {coeffs}",
+                          more=lines, every=100, commands="timestep 0.001\nrun 2000")
             rows = thermo(self.log)
             sums = [row["KinEng"] + row["c_sums[12]"] + row["c_sums[13]"] + row["c_sums[14]"] for row in rows]
             for total in sums:
