@@ -132,25 +132,15 @@ void ExternalLoads::release_if_idle()
   resize(0);
 }
 
-/* Of this rank. */
-
-bool ExternalLoads::has_put(int partner, unsigned kinds) const
-{
-  const int layer = place_of(partner);
-  for (int i = 0; i < atom->nlocal && layer >= 0 && !what.empty(); i++)
-    if (layers.empty() ? has(i, kinds) : has(layers[layer][i], kinds)) return true;
-  return false;
-}
-
 /* put(k, where) for those that are to have some from now on, which returns the kinds. Lists may be those of all
-   particles, or of this rank's: all take the place if one does. Nothing in the place of nothing costs no pass. */
+   particles, or of this rank's: all take the place if one does. */
 
 template <class Put>
 void ExternalLoads::replace(int partner, unsigned kinds, const ParticlesById &particles, Put put)
 {
-  int any = particles.size() > 0 || has_put(partner, kinds);
+  int any = particles.size() > 0;
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
-  if (!any) return release_if_idle();
+  if (!any && place_of(partner) < 0) return;
   const int layer = take_place(partner);
   if (particles.size()) make_room();
   if (what.empty()) return;

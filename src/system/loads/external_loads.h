@@ -164,7 +164,6 @@ class ExternalLoads : protected LAMMPS_NS::Pointers {
   void set(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] | some); }
   void unset(int i, unsigned some) { what[i] = static_cast<unsigned char>(what[i] & ~some); }
   bool any_has(unsigned some) const;
-  bool has_put(int partner, unsigned kinds) const;
   bool is_idle(int i) const;
   void make_room();
   void resize(std::size_t size);
