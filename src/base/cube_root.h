@@ -14,20 +14,20 @@ namespace Talus {
 
 /// a * b = high + low, exactly as long as nothing underflows or overflows: Dekker, Numerische
 /// Mathematik 18, 224 (1971). Without fused operations, which not all processors have.
-struct ExactProduct {
-  double high, low;
+template <class Real> struct ExactProduct {
+  Real high, low;
 
-  ExactProduct(double a, double b) : high(a * b)
+  ExactProduct(Real a, Real b) : high(a * b)
   {
-    const double a1 = upper_half(a), a2 = a - a1, b1 = upper_half(b), b2 = b - b1;
+    const Real a1 = upper_half(a), a2 = a - a1, b1 = upper_half(b), b2 = b - b1;
     low = ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2;
   }
 
  private:
   /// The upper 26 bits.
-  static double upper_half(double a)
+  static Real upper_half(Real a)
   {
-    const double scaled = 134217729.0 * a;    // 2^27 + 1
+    const Real scaled = 134217729.0 * a;    // 2^27 + 1
     return scaled - (scaled - a);
   }
 };
@@ -41,8 +41,21 @@ inline double power_of_two(int n)
   return power;
 }
 
-/// Cube root of any number, to 0.501 units in the last place. Halley's iteration triples the right
-/// digits; the last step is one of Newton, with a remainder that is exact in its leading part.
+/// Of numbers from 0.5 to 4. Halley's iteration triples the right digits; the last step is one of Newton, with a
+/// remainder that is exact in its leading part.
+template <class Real> inline Real cube_root_near_one(Real scaled)
+{
+  Real root = 0.71 + 0.23 * scaled;
+  for (int k = 0; k < 3; k++) {
+    const Real cube = root * root * root;
+    root = root * (cube + 2.0 * scaled) / (2.0 * cube + scaled);
+  }
+  const ExactProduct<Real> square(root, root), cube(square.high, root);
+  const Real remainder = ((scaled - cube.high) - cube.low) - square.low * root;
+  return root + remainder / (3.0 * square.high);
+}
+
+/// Cube root of any number, to 0.501 units in the last place; those of a vector are in base/power.h.
 inline double cube_root(double a)
 {
   if (a == 0.0 || !std::isfinite(a)) return a;
@@ -50,15 +63,7 @@ inline double cube_root(double a)
   const double fraction = std::frexp(std::abs(a), &exponent);             // 0.5 to 1
   const int third = (exponent + 3 * 400) / 3 - 400;                       // rounded down
   const double scaled = fraction * power_of_two(exponent - 3 * third);    // 0.5 to 4
-  double root = 0.71 + 0.23 * scaled;
-  for (int k = 0; k < 3; k++) {
-    const double cube = root * root * root;
-    root = root * (cube + 2.0 * scaled) / (2.0 * cube + scaled);
-  }
-  const ExactProduct square(root, root), cube(square.high, root);
-  const double remainder = ((scaled - cube.high) - cube.low) - square.low * root;
-  root = root + remainder / (3.0 * square.high);
-  return std::copysign(root * power_of_two(third), a);
+  return std::copysign(cube_root_near_one(scaled) * power_of_two(third), a);
 }
 
 }    // namespace Talus

@@ -7,10 +7,12 @@
 #ifndef TALUS_BASE_POWER_H
 #define TALUS_BASE_POWER_H
 
+#include "base/cube_root.h"
 #include "base/simd.h"
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace Talus {
 
@@ -80,6 +82,34 @@ template <class Real> TALUS_INLINE Real exponential(Real y)
   for (const double term : factorial) sum = sum * f + term;
   const auto power_of_two = as_exponent(bits_in(counted) + std::int64_t{1023});
   return ((sum * f + 1.0) * f + 1.0) * number_with<Real>(power_of_two);
+}
+
+/// Cube root of each, with the bits of that of one number.
+template <class Vector> inline Vector cube_root(Vector a)
+{
+  const Vector zero{}, one = splat<Vector>(1.0), size = magnitude(a);
+  const auto is_zero = a == zero;
+  const auto is_normal = (size >= splat<Vector>(std::numeric_limits<double>::min())) &
+                         (size <= splat<Vector>(std::numeric_limits<double>::max()));
+  if (any(~(is_normal | is_zero)))
+    return for_each_lane(a, [](double number) { return cube_root(number); });
+  // size = 2^n m, m from 0.5 to 1, and 3 third + 0, 1 or 2 = n
+  const auto bits = bits_in(select(is_zero, one, size));
+  const auto n = (bits >> 52) - std::int64_t{1022};
+  const Vector m = number_with<Vector>(bits - as_exponent(n)),
+               counted = number_with<Vector>(n + bits_in(counting_wholes)) - counting_wholes;
+  const auto third =
+      bits_in((counted - 1.0) * (1.0 / 3.0) + counting_wholes) - bits_in(counting_wholes);
+  const auto power_of_two = [](auto exponent) {
+    return number_with<Vector>(as_exponent(exponent + std::int64_t{1023}));
+  };
+  const Vector root =
+      cube_root_near_one(m * power_of_two(n - third - third - third)) * power_of_two(third);
+  return select(is_zero, a, select(a < zero, -root, root));
+}
+template <class Half> TALUS_INLINE DoubleWidth<Half> cube_root(DoubleWidth<Half> a)
+{
+  return {cube_root(a.low), cube_root(a.high)};
 }
 
 template <class Half> TALUS_INLINE DoubleWidth<Half> logarithm(DoubleWidth<Half> x)

@@ -12,7 +12,6 @@
 #ifndef TALUS_BASE_SIMD_H
 #define TALUS_BASE_SIMD_H
 
-#include "base/cube_root.h"
 #include "base/vectors.h"
 
 #include <cmath>
@@ -58,12 +57,6 @@ inline double fifth_root(double a)
 template <class Vector> inline Vector fifth_root(Vector a)
 {
   return for_each_lane(a, [](double one) { return fifth_root(one); });
-}
-
-/// Cube root; that of one number is in base/cube_root.h.
-template <class Vector> inline Vector cube_root(Vector a)
-{
-  return for_each_lane(a, [](double one) { return cube_root(one); });
 }
 
 /// One of two, without a branch, which processors could not predict.

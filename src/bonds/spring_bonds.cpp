@@ -2,6 +2,8 @@
 
 #include "bonds/spring_bonds.h"
 
+#include "base/power.h"
+
 namespace Talus {
 
 namespace {

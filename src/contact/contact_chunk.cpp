@@ -37,6 +37,7 @@ void ContactChunk::start_pairs(const ContactScene &scene, const HistoryStore &hi
   else
     history.release();
   touching = 0;
+  limits_are_known = false;
   deepest = {DeepestContact::watched};
 }
 
@@ -65,6 +66,7 @@ void ContactChunk::forget_contacts()
 {
   touching = 0;
   release(contacts);
+  release(limits);
 }
 
 void ContactChunk::compute(const ContactScene &scene, ParticleRecords &particles,
@@ -115,13 +117,11 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
   std::size_t next_distant = 0;
   std::int64_t done = 0;
   touching = 0;
-  const auto beyond = [&](std::int64_t pair, bool touched) {
-    if (step.scene.liquid.any()) return bridge_holds(step, pair, touched);
-    if (!step.scene.second_order) return lasts_beyond_contact(step.scene, position, pair, touched);
-    return has_just_ended(history.record(pair).c[3], step.advance);
-  };
-  const LastsBeyondContact lasts = std::cref(beyond);    // needs no memory
-  const double reach = step.scene.beyond_contact ? step.scene.laws.largest_relative_reach() : 0.0;
+  const auto ask = [&](std::int64_t pair, unsigned ended) { return lasting(step, pair, ended); };
+  const BeyondTouch::Lasts lasts = std::cref(ask);    // needs no memory
+  const bool asks = step.scene.second_order || step.scene.liquid.any();
+  make_room_for_limits(step);
+  const BeyondTouch beyond{limits.empty() ? nullptr : limits.data(), asks ? &lasts : nullptr};
   for (std::int64_t begin = 0; begin < candidates; begin += stretch) {
     const std::int64_t end = std::min(candidates, begin + stretch);
     if (step.progress && begin % between_calls == 0) (*step.progress)();
@@ -131,28 +131,16 @@ template <bool friction, bool history_kept> void ContactChunk::compute_all(const
     to_load.begin = std::max(to_load.begin, needed);
     const int ahead = std::min(slots_ahead, to_load.end - to_load.begin);
     to_prefetch = {std::max(to_prefetch.begin, to_load.begin), to_load.begin + ahead};
-    touching +=
-        find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
-                      &contacts[touching], step.scene.beyond_contact ? &lasts : nullptr, reach);
+    if (!limits_are_known) find_limits(step, begin, end);
+    touching += find_contacts(pairs, begin, end, position, history_kept ? &history : nullptr,
+                              &contacts[touching], beyond);
     for (; touching - done >= block_size; done += block_size)
       compute_block<friction, history_kept>(step, done, block_size);
   }
+  limits_are_known = true;
   if (done < touching)
     compute_block<friction, history_kept>(step, done, static_cast<int>(touching - done));
   if (to_load.begin < to_load.end) step.load(to_load.begin, to_load.end);
-}
-
-/* A pair that is apart, and may have touched. */
-
-bool ContactChunk::lasts_beyond_contact(const ContactScene &scene, const Record *position,
-                                        std::int64_t pair, bool touched) const
-{
-  const int row = row_of_pair(scene, pair);
-  if (!touched && !scene.laws.law(row).reaches()) return false;
-  const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];
-  double squared = 0.0;
-  for (int d = 0; d < 3; d++) squared += (i.c[d] - j.c[d]) * (i.c[d] - j.c[d]);
-  return scene.laws.lasts(row, i.c[3], j.c[3], std::sqrt(squared) - (i.c[3] + j.c[3]));
 }
 
 /* Prefetches the distant particles of pairs before `end`. */
@@ -194,6 +182,7 @@ void ContactChunk::compute_block(const Step &step, std::int64_t begin, int count
   if (!pairs.is_late()) {
     add_up<friction>(step, block, count);
     if (scene.with_twisting) add_twisting_torques(step.particles, block, count);
+    if (scene.with_heat) add_heat(step.particles, block, count);
   }
   defer(step, block, count);
   if (step.virial) add_virial(block, count);
@@ -337,6 +326,16 @@ void ContactChunk::add_twisting_torques(ParticleRecords &particles, const std::u
   }
 }
 
+void ContactChunk::add_heat(ParticleRecords &particles, const std::uint32_t *block, int count)
+{
+  for (int n = 0; n < count; n++) {
+    const int first = pairs.first[block[n]];
+    const double flow = batch.heat_flow[lane_of_contact[n]];
+    if (!pairs.is_foreign(first)) particles.heat_flow[first] += flow;
+    particles.heat_flow[pairs.second[block[n]]] -= flow;
+  }
+}
+
 /* Few blocks have pairs at the frontier. Which of their contacts are there is unpredictable: found
    for all of them first, without branches. */
 
@@ -353,14 +352,15 @@ void ContactChunk::defer(const Step &step, const std::uint32_t *block, int count
     forces.put(step.frontier.first_place + pairs.frontier_before(pair),
                pairs.is_foreign(pairs.first[pair]),
                {load4(force_of_lane[lane]), load4(torque_per_radius_of_lane[lane]),
-                load4(twisting_of_lane[lane])});
+                load4(twisting_of_lane[lane]), batch.heat_flow[lane]});
   }
 }
 
 double ContactChunk::memory_usage() const
 {
   return pairs.memory_usage() + history.memory_usage() +
-         static_cast<double>(contacts.capacity() * sizeof(std::uint32_t));
+         static_cast<double>(contacts.capacity() * sizeof(std::uint32_t) +
+                             limits.capacity() * sizeof(double));
 }
 
 }    // namespace Talus

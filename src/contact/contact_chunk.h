@@ -47,7 +47,6 @@ struct ContactScene {
   bool with_resistance = false;    ///< of rolling or twisting
   bool with_heat = false;          ///< is conducted
   bool second_order = false;       ///< changes of velocities are read
-  bool beyond_contact = false;     ///< contacts of some laws last beyond zero overlap
   LiquidBridges liquid;            ///< of bridges that have it from particles
   std::vector<int> slot_type;      ///< types in canonical order; empty if laws are uniform
 
@@ -101,6 +100,8 @@ class ContactChunk {
 
   /// Releases the contacts of the last compute(); queries then find none.
   void forget_contacts();
+  /// Laws have changed.
+  void forget_limits() { limits_are_known = false; }
 
   /// Where the forces of the pairs at the frontier go, and in the late phase the chunk of the same
   /// range in the early one; nothing for a chunk that has all pairs of a rank.
@@ -153,9 +154,11 @@ class ContactChunk {
   };
   void clear_changes();
   template <bool friction, bool history_kept> void compute_all(const Step &step);
-  bool lasts_beyond_contact(const ContactScene &scene, const Record *position, std::int64_t pair,
-                            bool touched) const;
-  bool bridge_holds(const Step &step, std::int64_t pair, bool touched);
+  unsigned lasting(const Step &step, std::int64_t pair, unsigned ended);
+  bool bridge_holds(const Step &step, std::int64_t pair);
+  bool has_limits(const ContactScene &scene) const;
+  void make_room_for_limits(const Step &step);
+  void find_limits(const Step &step, std::int64_t begin, std::int64_t end);
   void find_bridge_volumes(const Step &step, int end);
   template <bool friction, bool history_kept>
   void compute_block(const Step &step, std::int64_t begin, int count);
@@ -178,6 +181,7 @@ class ContactChunk {
   void add_up(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   template <bool friction> void add_up(const Step &step, const std::uint32_t *contacts, int count);
   void add_twisting_torques(ParticleRecords &particles, const std::uint32_t *contacts, int count);
+  void add_heat(ParticleRecords &particles, const std::uint32_t *contacts, int count);
   void defer(const Step &step, const std::uint32_t *contacts, int count);
   void account_block(const Step &step, const std::uint32_t *contacts, int count);
   void account_by_particle(const Step &step, const std::uint32_t *contacts, int count);
@@ -186,6 +190,8 @@ class ContactChunk {
   void tally_early_before(int second, int first, const Step &step);
 
   AlignedVector<std::uint32_t> contacts;    ///< touching pairs of the last compute()
+  AlignedVector<double> limits;             ///< see BeyondTouch
+  bool limits_are_known = false;
   std::int64_t touching = 0;
   DeepestContact deepest;
   struct LaterTally {

@@ -94,6 +94,7 @@ void ContactChunk::gather_further_histories(const ContactScene &scene, int end)
     for (int k = 0; k < end; k += 4) {
       Vec4 row[4];
       for (int q = 0; q < 4; q++) row[q] = load4(h[place[pair_of_lane[k + q]]]);
+      prefetch_two_lines(h + place[pair_of_lane[k]] + histories_ahead);
       to_lanes(row, batch.history + 4L * n, batch.history[4 * n + 3], k);
     }
   }
@@ -214,11 +215,10 @@ template <bool friction> void ContactChunk::transpose_results(int end, const Con
   const auto rows_of = [](const Lane *vector, const double *fourth, int k, Record *records) {
     to_rows(vector, fourth, k, [=](int q) -> Record & { return records[k + q]; });
   };
-  const double *heat = scene.with_heat ? batch.heat_flow : nullptr;
   for (int k = 0; k < end; k += 4) {
     rows_of(batch.force, nullptr, k, force_of_lane);
     if constexpr (friction) rows_of(batch.torque_per_radius, nullptr, k, torque_per_radius_of_lane);
-    if (scene.with_twisting) rows_of(batch.twisting_torque, heat, k, twisting_of_lane);
+    if (scene.with_twisting) rows_of(batch.twisting_torque, nullptr, k, twisting_of_lane);
   }
 }
 

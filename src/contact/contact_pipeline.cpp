@@ -18,7 +18,7 @@ void ContactPipeline::set_laws(const LawTable &table)
   scene.with_heat = table.conducts_heat();
   scene.liquid.set(table);
   scene.second_order = table.second_order();
-  scene.beyond_contact = table.lasts_beyond_contact() || scene.second_order;
+  for (ContactChunk &chunk : chunks) chunk.forget_limits();
 }
 
 void ContactPipeline::set_work(int num_threads, bool in_phases)
@@ -172,7 +172,8 @@ void ContactPipeline::change_order(int to_order, const LawOfTypes &law)
 void ContactPipeline::make_room()
 {
   particles.resize(order.size(), scene.with_friction, scene.with_twisting,
-                   shared_owned.size() + shared_ghosts.size(), moving.keeps_changes());
+                   shared_owned.size() + shared_ghosts.size(), moving.keeps_changes(),
+                   scene.with_heat);
   deferred.make_room(particles);
 }
 

@@ -77,11 +77,13 @@ void DeferredForces::make_room(const ParticleRecords &particles)
   stride = particles.stride;
   load.assign(stride * places, Record{});
   twisting_torque.assign(twisting_torques, Record{});
+  heat_flow.assign(particles.heat_flow.empty() ? 0 : places, 0.0);
 }
 
 void DeferredForces::release()
 {
   for (AlignedVector<Record> *records : {&load, &twisting_torque}) Talus::release(*records);
+  Talus::release(heat_flow);
 }
 
 void DeferredForces::add(int thread, ParticleRecords &particles) const
@@ -94,6 +96,8 @@ void DeferredForces::add(int thread, ParticleRecords &particles) const
       add_row<true>(row, next, end, particles);
     else
       add_row<false>(row, next, end, particles);
+    if (!twisting_torque.empty()) add_twisting_torques(row, next, end, particles);
+    if (!heat_flow.empty()) add_heat(row, next, end, particles);
     next = end;
   }
 }
@@ -120,18 +124,33 @@ void DeferredForces::add_row(const Row &row, const Entry *begin, const Entry *en
   }
   store(sums[0], force);
   if constexpr (rotation) store(sums[1], torque_per_radius);
-  if (twisting_torque.empty()) return;
-  const Vec4 all_opposite[2] = {four(1.0, 1.0, 1.0, 1.0),
-                                four(-1.0, -1.0, -1.0, -1.0)};    // with heat
+}
+
+void DeferredForces::add_twisting_torques(const Row &row, const Entry *begin, const Entry *end,
+                                          ParticleRecords &particles) const
+{
+  const Vec4 sign_of[2] = {four(1.0, 1.0, 1.0, 0.0), four(-1.0, -1.0, -1.0, 0.0)};
   Vec4 sum = kept_if(!row.has_all, load4(particles.twisting_torque[row.slot]));
   for (const Entry *e = begin; e < end; e++)
-    sum = sum + all_opposite[e->of_second] * kept_if(touches(*e), load4(twisting_torque[e->place]));
+    sum = sum + sign_of[e->of_second] * kept_if(acts(*e), load4(twisting_torque[e->place]));
   store(particles.twisting_torque[row.slot], sum);
+}
+
+void DeferredForces::add_heat(const Row &row, const Entry *begin, const Entry *end,
+                              ParticleRecords &particles) const
+{
+  double sum = row.has_all ? 0.0 : particles.heat_flow[row.slot];
+  for (const Entry *e = begin; e < end; e++) {
+    const double flow = acts(*e) ? heat_flow[e->place] : 0.0;
+    sum += e->of_second ? -flow : flow;
+  }
+  particles.heat_flow[row.slot] = sum;
 }
 
 double DeferredForces::memory_usage() const
 {
-  std::size_t bytes = sizeof(Record) * (load.capacity() + twisting_torque.capacity());
+  std::size_t bytes = sizeof(Record) * (load.capacity() + twisting_torque.capacity()) +
+                      sizeof(double) * heat_flow.capacity();
   for (const Rows &part : of_thread)
     bytes += sizeof(Row) * part.rows.capacity() + sizeof(Entry) * part.entries.capacity();
   return static_cast<double>(bytes);

@@ -25,11 +25,12 @@
 
 namespace Talus {
 
-/// What a contact adds to its first particle, see record.h. The second one gets the opposite force
-/// and twisting torque, and the same torque per radius. Both torques count only in scenes that have
-/// them.
+/// What a contact adds to its first particle, see record.h. The second one gets the opposite force,
+/// twisting torque and heat flow, and the same torque per radius. Torques and heat count only in scenes
+/// that have them.
 struct ContactLoad {
   Vec4 force, torque_per_radius, twisting_torque;
+  double heat_flow;
 };
 
 class DeferredForces {
@@ -70,6 +71,7 @@ class DeferredForces {
     write(load[stride * place], force);
     if (stride == 2) write(load[stride * place + 1], contact.torque_per_radius);
     if (!twisting_torque.empty()) write(twisting_torque[place], contact.twisting_torque);
+    if (!heat_flow.empty()) heat_flow[place] = contact.heat_flow;
   }
 
   /// Adds the rows of the particles of a thread, when all that is done by all chunks.
@@ -100,6 +102,11 @@ class DeferredForces {
   template <bool rotation>
   void add_row(const Row &row, const Entry *begin, const Entry *end,
                ParticleRecords &particles) const;
+  bool acts(const Entry &e) const { return load[stride * e.place].c[3] == step; }
+  void add_twisting_torques(const Row &row, const Entry *begin, const Entry *end,
+                            ParticleRecords &particles) const;
+  void add_heat(const Row &row, const Entry *begin, const Entry *end,
+                ParticleRecords &particles) const;
 
   std::size_t places = 0, stride = 1;
   std::vector<std::size_t> first_of_chunk;
@@ -107,6 +114,7 @@ class DeferredForces {
   double step = 0.0;
   // by place; the fourth number of a force is the step in which it was stored
   AlignedVector<Record> load, twisting_torque;
+  AlignedVector<double> heat_flow;
 };
 
 }    // namespace Talus

@@ -68,14 +68,12 @@ void ContactChunk::find_bridge_volumes(const Step &step, int end)
   }
 }
 
-/* Of a pair that is apart. */
+/* Of a pair that is apart and has touched. */
 
-bool ContactChunk::bridge_holds(const Step &step, std::int64_t pair, bool touched)
+bool ContactChunk::bridge_holds(const Step &step, std::int64_t pair)
 {
   const BridgeTerms &terms = step.scene.liquid.terms(row_of_pair(step.scene, pair));
   const Record *position = step.particles.position.data();
-  if (!(terms.share > 0.0)) return lasts_beyond_contact(step.scene, position, pair, touched);
-  if (!touched) return false;
   const double volume = history.record(pair, terms.history / 4).c[terms.history % 4];
   if (!(volume > 0.0)) return false;
   const Record &i = position[pairs.state_of_first()[pair]], &j = position[pairs.second[pair]];

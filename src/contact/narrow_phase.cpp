@@ -2,15 +2,15 @@
 
 #include "contact/narrow_phase.h"
 
-#include <type_traits>
-
 namespace Talus {
 namespace {
 
-/// One bit for each of eight pairs, set if the pair touches; `wide`: if radii that are `factor` times as large do.
-template <bool wide>
-inline unsigned touching8(const Record *position, const int *first, const int *second,
-                          [[maybe_unused]] double factor)
+/// Squared distances and sums of radii of eight pairs.
+struct Eight {
+  Vec8 square, sum;
+};
+
+inline Eight look_at_eight(const Record *position, const int *first, const int *second)
 {
   const Vec4 one = four(-1.0, -1.0, -1.0, 1.0);
   const Vec8 difference_and_sum = join(one, one);
@@ -20,55 +20,47 @@ inline unsigned touching8(const Record *position, const int *first, const int *s
   Vec8 s[4];
   for (int k = 0; k < 4; k++) s[k] = two(first, k) + difference_and_sum * two(second, k);
   transpose(s[0], s[1], s[2], s[3]);
-  if constexpr (wide) s[3] = factor * s[3];
-  return less_bits(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3] * s[3]);
+  return {s[0] * s[0] + s[1] * s[1] + s[2] * s[2], s[3]};
 }
 
-template <bool wide>
-unsigned touching_tail(const Record *position, const int *first, const int *second, int count,
-                       double factor)
+Eight look_at_last(const Record *position, const int *first, const int *second, int count)
 {
   int i[8], j[8];
   for (int k = 0; k < 8; k++) {
     i[k] = first[k < count ? k : 0];
     j[k] = second[k < count ? k : 0];
   }
-  return touching8<wide>(position, i, j, factor) & ((1U << count) - 1U);
+  return look_at_eight(position, i, j);
 }
 
-/// Of the pairs first ... first + 7 those `asked` that touch without overlap; `touched`: those that did before.
-unsigned lasting(std::int64_t first, unsigned asked, unsigned touched,
-                 const LastsBeyondContact &lasts)
+/// Of eight pairs those within their limits.
+inline unsigned within_limits(Vec8 square, const double *limits, unsigned touched)
 {
-  unsigned all = 0;
-  for (; asked; asked &= asked - 1) {
-    const int k = __builtin_ctz(asked);
-    if (lasts(first + k, touched >> k & 1U)) all |= 1U << k;
-  }
-  return all;
+  const Vec8 limit = load8(limits);
+  return less_bits(square, limit) | (touched & less_bits(square, Vec8{} - limit));
 }
 
 }    // namespace
 
 std::int64_t find_contacts(const PairList &pairs, std::int64_t begin, std::int64_t end,
                            const Record *position, ContactHistory *history, std::uint32_t *contacts,
-                           const LastsBeyondContact *lasts, double reach)
+                           const BeyondTouch &beyond)
 {
   const int *first = pairs.state_of_first(), *second = pairs.second.data();
   std::uint32_t *out = contacts;
-
-  const auto find = [&](auto wide, std::int64_t c, double factor) {
-    return c + 8 <= end ? touching8<decltype(wide)::value>(position, first + c, second + c, factor)
-                        : touching_tail<decltype(wide)::value>(position, first + c, second + c,
-                                                               static_cast<int>(end - c), factor);
-  };
   for (std::int64_t c = begin; c < end; c += 8) {
-    unsigned bits = find(std::false_type{}, c, 1.0);
-    if (lasts) {
-      const unsigned touched = history->touching_bits(c / 8),
-                     near = reach > 0.0 ? find(std::true_type{}, c, 1.0 + reach) : 0;
-      bits |= lasting(c, (touched | near) & ~bits, touched, *lasts);
-    }
+    const bool whole = c + 8 <= end;
+    const int count = whole ? 8 : static_cast<int>(end - c);
+    const Eight found = whole ? look_at_eight(position, first + c, second + c)
+                              : look_at_last(position, first + c, second + c, count);
+    const unsigned are_there = (1U << count) - 1U;
+    unsigned bits = less_bits(found.square, found.sum * found.sum) & are_there;
+    if (beyond.limits)
+      bits |=
+          within_limits(found.square, beyond.limits + c, history->touching_bits(c / 8)) & are_there;
+    if (beyond.lasts)
+      if (const unsigned ended = history->touching_bits(c / 8) & ~bits)
+        bits |= (*beyond.lasts)(c, ended);
     out += store_places(out, static_cast<std::uint32_t>(c), bits);
     if (history) history->set_touching(c / 8, bits);
   }

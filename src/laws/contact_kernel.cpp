@@ -84,12 +84,6 @@ void run_approach(ContactBatch &b, int begin, int end, const StageInput &in)
   }
 }
 
-/// Of laws that write nothing there and are followed by one whose sums have a part in it.
-void clear_twisting(ContactBatch &b, int begin, int end, const StageInput & /*in*/)
-{
-  for (int k = begin; k < end; k += lanes) store_vector(b.twisting_torque, k, Vector3<Vec8>{});
-}
-
 template <bool with_radius, bool second_order> StageFunction impact_function(bool advance)
 {
   return advance ? run_approach<with_radius, true, true, second_order>
@@ -139,25 +133,28 @@ void ContactKernel::add_end_of_contact(const ContactLaw &law)
   add(find_last_overlap<true>);
 }
 
-/// Of the history values those of laws that end with the touch, others -1. What the law of cohesion itself remembers
+/// Of the history values those of laws that end with the touch, then -1. What the law of cohesion itself remembers
 /// stays; heat has no history.
 static HistoryIndices ending_with_touch(const ContactLaw &law)
 {
   const HistoryLayout layout = law.history();
   const HistoryIndices &kept = layout.of_stage[static_cast<int>(Stage::COHESION)];
-  const int num_kept = law.cohesion().odd_history + law.cohesion().even_history;
+  const int *const end = kept.data() + law.cohesion().odd_history + law.cohesion().even_history;
   HistoryIndices ending;
-  for (int n = 0; n < ContactBatch::history_size; n++) {
-    const bool ends =
-        std::find(kept.begin(), kept.begin() + num_kept, n) == kept.begin() + num_kept;
-    ending[n] = ends && n < layout.size ? n : -1;
-  }
+  ending.fill(-1);
+  int count = 0;
+  for (int n = 0; n < layout.size; n++)
+    if (std::find(kept.data(), end, n) == end) ending[count++] = n;
   return ending;
 }
 
+template <ReadBehindTouch read>
 void ContactKernel::add_end_of_touch(const ContactLaw &law, bool advance)
 {
-  add(advance ? end_touch<true, true> : end_touch<false, true>, 0, ending_with_touch(law));
+  const StageFunction ends = advance ? end_touch<true, false, read> : end_touch<false, false, read>,
+                      twisting_ends =
+                          advance ? end_touch<true, true, read> : end_touch<false, true, read>;
+  add(law.twists() ? twisting_ends : ends, 0, ending_with_touch(law));
 }
 
 ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
@@ -172,7 +169,7 @@ ContactKernel staged_kernel(const ContactLaw &law, bool uniform, bool advance)
              0, layout.impact);
   for_each_stage(law, [&](Stage stage, const Law &stage_law) {
     if (needs_delay(law, stage)) kernel.add(law.normal().delay);
-    if (law.acts_apart_from(stage)) kernel.add_end_of_touch(law, advance);
+    if (law.acts_apart_from(stage)) kernel.add_end_of_touch<ReadBehindTouch::ALL>(law, advance);
     kernel.add(advance ? stage_law.advancing : stage_law.reading, law.first_coefficient(stage),
                layout.of_stage[static_cast<int>(stage)]);
   });
@@ -222,12 +219,10 @@ ContactKernel contact_kernel(const ContactLaw &law, bool uniform, bool advance)
   kernel.add(run_approach<true, false, false>);    // fused functions leave nothing of it
   const Stage last = law.conducts_heat() ? Stage::HEAT : Stage::COHESION;
   if (last == Stage::HEAT) {
-    if (!before.twists()) kernel.add(clear_twisting);
     kernel.add(law.normal().reading, law.first_coefficient(Stage::NORMAL));
-    if (law.reaches()) kernel.add_end_of_touch(law, advance);
+    if (law.reaches()) kernel.add_end_of_touch<ReadBehindTouch::CIRCLE>(law, advance);
   } else {
-    kernel.add(advance ? end_touch<true, false> : end_touch<false, false>, 0,
-               ending_with_touch(law));
+    kernel.add_end_of_touch<ReadBehindTouch::NOTHING>(law, advance);
   }
   kernel.add(law[last].advancing, law.first_coefficient(last),
              law.history().of_stage[static_cast<int>(last)]);

@@ -17,6 +17,8 @@
 
 namespace Talus {
 
+enum class ReadBehindTouch;
+
 class ContactKernel {
  public:
   /// Computes the contacts begin ... end-1 of a batch; both are multiples of `lanes`.
@@ -51,7 +53,7 @@ class ContactKernel {
   /// What comes first of laws of second order.
   void add_end_of_contact(const ContactLaw &law);
   /// What comes before a stage that acts where bodies are apart, see end_of_touch.h.
-  void add_end_of_touch(const ContactLaw &law, bool advance);
+  template <ReadBehindTouch read> void add_end_of_touch(const ContactLaw &law, bool advance);
 
   struct Step {
     StageFunction run;

@@ -119,7 +119,7 @@ double ContactLaw::coefficient(Stage stage, const char *name, const ContactCoeff
 }
 
 static double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row,
-                                  const ContactSize &size)
+                                  const ContactSize<double> &size)
 {
   const Stage stage = law.stage_of_pulloff();
   const auto cube = law[stage].pulloff_cube;
@@ -131,12 +131,6 @@ static double volume_of_sphere(double radius)
   return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
 }
 
-ContactSize size_of_pair(double radius_i, double radius_j)
-{
-  return {radius_i * radius_j / (radius_i + radius_j),
-          volume_of_sphere(radius_i) + volume_of_sphere(radius_j)};
-}
-
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius_i,
                            double radius_j)
 {
@@ -146,7 +140,7 @@ double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row
 
 double pulloff_distance_of(const ContactLaw &law, const ContactCoefficients &row, double radius)
 {
-  return pulloff_distance_of(law, row, ContactSize{radius, volume_of_sphere(radius)});
+  return pulloff_distance_of(law, row, ContactSize<double>{radius, volume_of_sphere(radius)});
 }
 
 std::string describe_law(const ContactLaw &law)

@@ -51,8 +51,7 @@ class ContactLaw {
   bool resists() const { return rolling().acts || twisting().acts; }
   bool conducts_heat() const { return heat().acts; }
   /// twisting_torque is written: there are torques other than those of one force at both surfaces.
-  /// Heat flow goes with them.
-  bool twists() const { return resists() || tangential().lever_arms || conducts_heat(); }
+  bool twists() const { return resists() || tangential().lever_arms; }
   bool synchronized() const { return tangential().synchronized; }
   bool delayed() const { return rolling().delayed || twisting().delayed; }
   /// Contacts that have begun last while bodies are apart.
@@ -82,7 +81,11 @@ class ContactLaw {
     return normal().lasts_beyond_contact || bridges() || normal().hysteretic;
   }
   /// Angular velocities are read, and torques computed.
-  bool has_friction() const { return tangential().acts || twists() || bridges(); }
+  bool has_friction() const
+  {
+    return tangential().acts || twists() || bridges() ||
+           conducts_heat();    // heat: like walls beside it
+  }
   /// The tangential spring changes with the overlap while it is stretched.
   bool stiffens() const
   {
@@ -116,7 +119,12 @@ class ContactLaw {
 };
 
 /// Of two particles with these radii, > 0.
-ContactSize size_of_pair(double radius_i, double radius_j);
+template <class Real> TALUS_INLINE ContactSize<Real> size_of_pair(Real radius_i, Real radius_j)
+{
+  constexpr double of_unit_ball = 4.0 / 3.0 * 3.14159265358979323846;
+  const auto volume = [](Real r) { return of_unit_ball * r * r * r; };
+  return {radius_i * radius_j / (radius_i + radius_j), volume(radius_i) + volume(radius_j)};
+}
 
 /// How far a contact of particles with these radii lasts beyond zero overlap (length); 0 if a
 /// radius is.

@@ -21,9 +21,11 @@ inline void end_touch(ContactLanes<double> &s)
   s.force = s.tangential = s.torque_per_radius = s.twisting_torque = Vector3<double>{};
 }
 
-/// Of a batch, `advance`: with the history values of these laws, all indices that are not below 0; `found`: with what
-/// stages find for others, not the sums alone.
-template <bool advance, bool found>
+/// What the laws behind it read of what other stages find, besides their sums.
+enum class ReadBehindTouch { NOTHING, CIRCLE, ALL };
+
+/// Of a batch, `advance`: with the history values of these laws, whose indices stand before the first one below 0.
+template <bool advance, bool twists, ReadBehindTouch read>
 void end_touch(ContactBatch &b, int begin, int end, const StageInput &in)
 {
   [[maybe_unused]] ContactBatch::Between &f = b.between;
@@ -34,16 +36,22 @@ void end_touch(ContactBatch &b, int begin, int end, const StageInput &in)
     const auto end_one = [=](double *of_lanes) {
       store(of_lanes + k, select(apart, zero, load8(of_lanes + k)));
     };
-    if constexpr (found)
+    if constexpr (read == ReadBehindTouch::CIRCLE)
+      for (double *one : {f.kn, f.contact_radius, f.elastic}) end_one(one);
+    if constexpr (read == ReadBehindTouch::ALL)
       for (double *one :
            {f.kn, f.kt, f.tangent_n, f.tangent_t, f.contact_radius, f.elastic, f.pulloff_force,
             f.gn, f.gt, f.normal_force, f.critical_force, f.delayed_force})
         end_one(one);
     for (int d = 0; d < 3; d++)
-      for (double *one : {b.force[d], b.torque_per_radius[d], b.twisting_torque[d]}) end_one(one);
+      for (double *one : {b.force[d], b.torque_per_radius[d]}) end_one(one);
+    if constexpr (twists)
+      for (double *one : b.twisting_torque) end_one(one);
     if constexpr (advance)
-      for (const int n : in.history_index)
-        if (n >= 0) end_one(b.history[n]);
+      for (const int n : in.history_index) {
+        if (n < 0) break;
+        end_one(b.history[n]);
+      }
   }
 }
 

@@ -33,8 +33,8 @@ struct ContactCoefficients {
 };
 
 /// Of two bodies that may touch: effective radius (length) and volume of those that are particles.
-struct ContactSize {
-  double radius, volume;
+template <class Real> struct ContactSize {
+  Real radius, volume;
 };
 
 /// Indices of the values of one law in ContactBatch::history.
@@ -131,7 +131,9 @@ struct Law {
   /// Normal, cohesion: the third power of the pull-off distance (length), how far a contact that has begun lasts beyond
   /// zero overlap; nullptr if not. Heat: up to where it flows. A power, since the formulas of most laws have one, and
   /// bodies that have come apart are asked in each step.
-  double (*pulloff_cube)(const double *c, const ContactSize &size);
+  double (*pulloff_cube)(const double *c, const ContactSize<double> &size);
+  /// The same of eight.
+  void (*pulloff_cubes)(const double *c, const ContactSize<Vec8> &size, Vec8 &cubes);
   /// Normal: finds ContactBatch::pulloff_distance where bodies are apart; nullptr if not.
   StageFunction find_pulloff_distance;
 };

@@ -41,9 +41,10 @@ struct LawBase {
   static constexpr double exponent = 1.0;
   /// Normal, cohesion and heat: the third power of how far a contact lasts beyond zero overlap (length), of heat in
   /// proportion to the radius; only called if lasts_beyond_contact.
-  template <class Row> static double pulloff_cube(const Row & /*c*/, const ContactSize & /*size*/)
+  template <class Row, class Real>
+  static Real pulloff_cube(const Row & /*c*/, const ContactSize<Real> & /*size*/)
   {
-    return 0.0;
+    return Real{};
   }
 };
 

@@ -172,9 +172,15 @@ double stored_energy(const ContactLanes<double> &s, const double *c, const doubl
   return L::stored(s, row_of<L>(c), history);
 }
 
-template <class L> double pulloff_cube_by(const double *c, const ContactSize &size)
+template <class L> double pulloff_cube_by(const double *c, const ContactSize<double> &size)
 {
   return L::pulloff_cube(row_of<L>(c), size);
+}
+
+template <class L>
+void pulloff_cubes_by(const double *c, const ContactSize<Vec8> &size, Vec8 &cubes)
+{
+  cubes = L::pulloff_cube(spread<L, Vec8>(c), size);
 }
 
 /// Of normal laws, which ask for the radius alone. Few bodies are apart.
@@ -237,7 +243,10 @@ template <class L> constexpr Law make_law()
     law.damping_exponent = L::damping_exponent;
     law.dashpot_exponent = L::dashpot_exponent;
   }
-  if constexpr (L::lasts_beyond_contact) law.pulloff_cube = pulloff_cube_by<L>;
+  if constexpr (L::lasts_beyond_contact) {
+    law.pulloff_cube = pulloff_cube_by<L>;
+    law.pulloff_cubes = pulloff_cubes_by<L>;
+  }
   if constexpr (L::stage == Stage::NORMAL) {
     law.damping = L::damping;
     if constexpr (L::lasts_beyond_contact) law.find_pulloff_distance = run_pulloff_distance<L>;

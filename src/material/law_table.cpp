@@ -2,6 +2,8 @@
 
 #include "material/law_table.h"
 
+#include "base/power.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -35,14 +37,11 @@ void LawTable::finish()
     one_row = one_row && laws[r] == laws[0] &&
               std::memcmp(&rows[r], &rows[0], sizeof(ContactCoefficients)) == 0;
   }
-  lasting.clear();
   advancing.clear();
   reading.clear();
   accounting.clear();
   accounting_at_rest.clear();
   for (const ContactLaw &law : distinct) {
-    const Stage stage = law.stage_of_pulloff();
-    lasting.push_back({law[stage].pulloff_cube, law.first_coefficient(stage)});
     advancing.push_back(contact_kernel(law, one_row, true));
     reading.push_back(contact_kernel(law, one_row, false));
     accounting.push_back(Talus::accounting_kernel(law, one_row, true));
@@ -112,30 +111,25 @@ double LawTable::pulloff_distance(int row, double radius_i, double radius_j) con
   return pulloff_distance_of(laws[row], rows[row], radius_i, radius_j);
 }
 
-/* That of equal spheres: the effective radius is at most a quarter of the sum. */
-
-double LawTable::largest_relative_reach() const
-{
-  double largest = 0.0;
-  if (!any([](const ContactLaw &law) { return law.reaches(); })) return largest;
-  for (std::size_t row = 0; row < rows.size(); row++)
-    if (laws[row].reaches())
-      largest = std::max(largest, pulloff_distance_of(laws[row], rows[row], 0.5, 0.5));
-  return largest;
-}
-
 double LawTable::pulloff_distance(int row, double radius) const
 {
   return pulloff_distance_of(laws[row], rows[row], radius);
 }
 
-bool LawTable::lasts(int row, double radius_i, double radius_j, double gap) const
+Vec8 LawTable::limits_of_contacts(int row, Vec8 radius_i, Vec8 radius_j) const
 {
-  const Lasting &law = lasting[index_of_row[row]];
-  if (!law.cube || radius_i <= 0.0 || radius_j <= 0.0) return false;
-  const double cube =
-      law.cube(rows[row].c + law.first_coefficient, size_of_pair(radius_i, radius_j));
-  return cube > 0.0 && gap * gap * gap < cube;
+  const ContactLaw &law = laws[row];
+  const Vec8 zero{}, one = splat<Vec8>(1.0);
+  if (!law.lasts_beyond_contact() || law.cohesion().shares_liquid) return zero;
+  const Stage stage = law.stage_of_pulloff();
+  const auto two = (radius_i > zero) & (radius_j > zero);
+  Vec8 cubes;
+  law[stage].pulloff_cubes(law.coefficients(stage, rows[row]),
+                           size_of_pair(select(two, radius_i, one), select(two, radius_j, one)),
+                           cubes);
+  const Vec8 distance = select(cubes > zero, cube_root(select(cubes > zero, cubes, one)), zero);
+  const Vec8 limit = radius_i + radius_j + distance, square = limit * limit;
+  return select(two & (distance > zero), law.reaches() ? square : -square, zero);
 }
 
 }    // namespace Talus

@@ -67,12 +67,10 @@ class LawTable {
   double pulloff_distance(int row, double radius_i, double radius_j) const;
   /// The same against a flat body.
   double pulloff_distance(int row, double radius) const;
-  /// Of laws whose contacts begin beyond zero overlap: their pull-off distance over the sum of both radii is not
-  /// larger; 0 if there are none.
-  double largest_relative_reach() const;
-  /// Whether a contact of two radii that has begun lasts while its surfaces are apart by `gap` (length). Asked of many
-  /// pairs in each step.
-  bool lasts(int row, double radius_i, double radius_j, double gap) const;
+  /// Of eight pairs of a row of laws, with these radii: the squared distance of their centers up to which they last
+  /// beyond zero overlap, negative if only those do that have begun; 0 if they do not, or if the liquid of particles
+  /// tells it.
+  Vec8 limits_of_contacts(int row, Vec8 radius_i, Vec8 radius_j) const;
 
  private:
   template <class Predicate> bool any(Predicate holds) const;
@@ -83,11 +81,6 @@ class LawTable {
   std::vector<ContactLaw> laws;
   std::vector<int> index_of_row;
   std::vector<ContactLaw> distinct;
-  struct Lasting {
-    double (*cube)(const double *c, const ContactSize &size);    // see Law::pulloff_cube
-    int first_coefficient;
-  };
-  std::vector<Lasting> lasting;                                                     // by law
   std::vector<ContactKernel> advancing, reading, accounting, accounting_at_rest;    // by law
 };
 

@@ -16,7 +16,7 @@ inline void add_to_row(double *row, Vec4 value)
 }    // namespace
 
 void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques,
-                             std::size_t copies, bool changes)
+                             std::size_t copies, bool changes, bool heat)
 {
   stride = rotation ? 2 : 1;
   renew(position, n + copies);
@@ -25,6 +25,7 @@ void ParticleRecords::resize(std::size_t n, bool rotation, bool twisting_torques
   renew(load, stride * n);
   acted.assign(n, 1);
   renew(twisting_torque, twisting_torques ? n : 0);
+  renew(heat_flow, heat ? n : 0);
 }
 
 void ParticleRecords::keep_changes(bool yes)
@@ -37,6 +38,7 @@ void ParticleRecords::keep_changes(bool yes)
 void ParticleRecords::release_sums()
 {
   for (AlignedVector<Record> *records : {&load, &twisting_torque}) release(*records);
+  release(heat_flow);
 }
 
 /* Eight particles at a time, for the sake of the divisions. */
@@ -98,15 +100,15 @@ void ParticleRecords::add_heat_to(const ParticleOrder &order, const ParticleView
 {
   if (!arrays.heat_flow) return;
   for (int s = begin; s < end; s++)
-    if (const int a = order.atom_of_slot[s]; order.is_owned(a))
-      arrays.heat_flow[a] += twisting_torque[s].c[3];
+    if (const int a = order.atom_of_slot[s]; order.is_owned(a)) arrays.heat_flow[a] += heat_flow[s];
 }
 
 double ParticleRecords::memory_usage() const
 {
   return static_cast<double>(sizeof(Record) * (position.capacity() + motion.capacity() +
                                                load.capacity() + twisting_torque.capacity()) +
-                             sizeof(ChangeRecord) * change.capacity());
+                             sizeof(ChangeRecord) * change.capacity() +
+                             sizeof(double) * heat_flow.capacity());
 }
 
 }    // namespace Talus

@@ -80,9 +80,9 @@ class ParticleRecords {
   /// Makes room for `n` particles and their sums, whatever stood there before. `rotation` is false
   /// in scenes without friction: omega records and torques per radius are then neither read nor
   /// kept. `twisting_torques`: laws with resistance occur. `copies`: of the states of some
-  /// particles, behind those of all. `changes`: see keep_changes().
+  /// particles, behind those of all. `changes`: see keep_changes(). `heat`: is conducted.
   void resize(std::size_t n, bool rotation, bool twisting_torques, std::size_t copies = 0,
-              bool changes = false);
+              bool changes = false, bool heat = false);
   /// From now on changes of velocities are kept, 0 before the next step, or are not.
   void keep_changes(bool yes);
   bool keeps_changes() const { return !change.empty(); }
@@ -214,6 +214,7 @@ class ParticleRecords {
 
   std::size_t stride = 1;    ///< records per particle in motion and load: 2 with angular velocities
   AlignedVector<Record> position, motion, load, twisting_torque;    ///< see record.h
+  AlignedVector<double> heat_flow;    ///< sums like those of load, or none
   /// For laws of second order and for energies: changes of velocities in the time by which they are
   /// behind positions, by the accelerations of the last step; one record per particle, or none.
   AlignedVector<ChangeRecord> change;
@@ -240,6 +241,7 @@ class ParticleRecords {
     store(load[stride * slot], weight(slot, velocity_record));
     if (stride == 2) store(load[2 * slot + 1], Vec4{});
     if (!twisting_torque.empty()) store(twisting_torque[slot], Vec4{});
+    if (!heat_flow.empty()) heat_flow[slot] = 0.0;
   }
   Vec4 torque_of(std::size_t slot, Vec4 position_record, Vec4 force_record) const
   {

@@ -10,7 +10,7 @@
 //                                                        one is dx, dy, dz (length), at limit
 //   force record     { x, y, z, 0 or 1 }                 see ParticleRecords::settle_torque()
 //   torque per radius { x, y, z, unused } force; torque = -r times it
-//   twisting torque  { x, y, z, heat flow }              of scenes that conduct heat
+//   twisting torque  { x, y, z, unused }
 //
 // The fourth entries of the first three are chosen such that the sum of two records gives what a
 // pair needs: r_i + r_j, 1/m_eff and 1/R_eff. A particle of infinite mass has 1/m = 0.

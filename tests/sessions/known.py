@@ -7,6 +7,7 @@ import re
 KNOWN = [
     ("robust", "Bond atom missing in image check", r"delete_atoms", "LAMMPS ends one rank where bonds of deleted particles are left"),
     ("", "FixUpdateSpecialBonds", r"bond_style bpm", "LAMMPS looks for partners of broken bonds that are beyond the ghosts"),
+    ("robust", r"^hang", r"(?s)delete_atoms group all.*balance 1\.0 rcb", "LAMMPS hangs in a run after balance rcb without atoms"),
 ]
 
 

@@ -3,6 +3,7 @@
 // Lists of the particles that may touch a large body that moves: until they are stale none is missing that
 // touches, and they get stale as the surface moves, wherever the furthest particle is.
 
+#include "base/cube_root.h"
 #include "body/contact/body_candidates.h"
 #include "body/shape/ball.h"
 #include "body/shape/box.h"

@@ -32,7 +32,8 @@ struct Thread : CohesionLaw {
   {
     return {m.mean("thread force"), m.mean("thread length")};
   }
-  static double pulloff_cube(const Row<double> &c, const ContactSize & /*size*/)
+  template <class Real>
+  static Real pulloff_cube(const Row<Real> &c, const ContactSize<Real> & /*size*/)
   {
     return c.length * c.length * c.length;
   }

@@ -31,6 +31,7 @@ bool same(const Record &a, const Record &b)
 
 struct OneContact {
   Record force, torque_per_radius, twisting_torque;
+  double heat_flow;
 };
 
 /// Of each pair that touches, by slots.
@@ -41,7 +42,8 @@ Contacts random_contacts(const Pairs &pairs, double chance, RandomSource &random
   Contacts contacts;
   for (const auto &one : pairs.by_slots)
     if (random.chance(chance))
-      contacts[one.first] = {random_record(random), random_record(random), random_record(random)};
+      contacts[one.first] = {random_record(random), random_record(random), random_record(random),
+                             random.uniform(-1.0, 1.0)};
   return contacts;
 }
 
@@ -57,12 +59,18 @@ void add_contact(ParticleRecords &sums, const OneContact &contact, int slot, boo
   add(load[0], contact.force, sign);
   if (sums.stride == 2) add(load[1], contact.torque_per_radius, 1.0);
   if (!sums.twisting_torque.empty()) add(sums.twisting_torque[slot], contact.twisting_torque, sign);
+  if (!sums.heat_flow.empty()) sums.heat_flow[slot] += sign * contact.heat_flow;
 }
 
-ParticleRecords cleared(int particles, bool rotation, bool twisting_torques)
+struct Kind {
+  int threads;
+  bool two_phases, rotation, twisting_torques, heat;
+};
+
+ParticleRecords cleared(int particles, const Kind &kind)
 {
   ParticleRecords sums;
-  sums.resize(particles, rotation, twisting_torques);
+  sums.resize(particles, kind.rotation, kind.twisting_torques, 0, false, kind.heat);
   sums.clear(0, particles);
   return sums;
 }
@@ -75,11 +83,6 @@ ParticleRecords slow_sums(const Contacts &contacts, ParticleRecords sums)
   }
   return sums;
 }
-
-struct Kind {
-  int threads;
-  bool two_phases, rotation, twisting_torques;
-};
 
 class DeferredForcesOf : public testing::TestWithParam<Kind> {
  protected:
@@ -96,7 +99,8 @@ class DeferredForcesOf : public testing::TestWithParam<Kind> {
       const bool at_frontier = list.defers(first) || list.defers(second);
       if (touches && at_frontier)
         deferred.put(place, list.is_foreign(first),
-                     {load4(one.force), load4(one.torque_per_radius), load4(one.twisting_torque)});
+                     {load4(one.force), load4(one.torque_per_radius), load4(one.twisting_torque),
+                      one.heat_flow});
       place += at_frontier;
       if (!touches) continue;
       if (!list.is_late() && !list.is_foreign(first)) add_contact(sums, one, first, true);
@@ -116,10 +120,10 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
   for (int rebuild = 0; rebuild < 2; rebuild++) {
     deferred.collect(divided.order, divided.work, kind.threads,
                      [this](int c) { return &divided.lists[c]; });
-    deferred.make_room(cleared(1, kind.rotation, kind.twisting_torques));
+    deferred.make_room(cleared(1, kind));
     for (const double touching : {0.6, 0.1, 1.0, 0.5, 0.0}) {    // contacts begin and end
       const Contacts contacts = random_contacts(divided.pairs, touching, random);
-      ParticleRecords sums = cleared(divided.order.size(), kind.rotation, kind.twisting_torques);
+      ParticleRecords sums = cleared(divided.order.size(), kind);
       const ParticleRecords expected = slow_sums(contacts, sums);
       deferred.begin_step();
       for (int c = divided.work.num_chunks() - 1; c >= 0; c--) compute_chunk(c, contacts, sums);
@@ -132,6 +136,9 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
         if (kind.twisting_torques) {
           ASSERT_TRUE(same(sums.twisting_torque[s], expected.twisting_torque[s])) << s;
         }
+        if (kind.heat) {
+          ASSERT_EQ(sums.heat_flow[s], expected.heat_flow[s]) << s;
+        }
       }
     }
     EXPECT_EQ(deferred.memory_usage() > 0.0, kind.threads > 1 || kind.two_phases);
@@ -139,10 +146,11 @@ TEST_P(DeferredForcesOf, MakeTheSumsOfALoopInCanonicalOrder)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, DeferredForcesOf,
-                         testing::Values(Kind{1, false, true, false}, Kind{3, false, true, false},
-                                         Kind{1, true, true, true}, Kind{3, true, true, true},
-                                         Kind{3, true, false, false}, Kind{8, true, true, false}));
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, DeferredForcesOf,
+    testing::Values(Kind{1, false, true, false, false}, Kind{3, false, true, false, true},
+                    Kind{1, true, true, true, true}, Kind{3, true, true, true, false},
+                    Kind{3, true, false, false, true}, Kind{8, true, true, false, false}));
 
 /// Negative control: another order gives other bits.
 TEST(DeferredForces, OrderOfSumsShows)
@@ -150,7 +158,7 @@ TEST(DeferredForces, OrderOfSumsShows)
   RandomSource random(2);
   const Divided divided(200, 1, false, random);
   const Contacts contacts = random_contacts(divided.pairs, 1.0, random);
-  const ParticleRecords zero = cleared(divided.order.size(), true, false);
+  const ParticleRecords zero = cleared(divided.order.size(), {1, false, true, false, false});
   const ParticleRecords sums = slow_sums(contacts, zero);
   ParticleRecords others = zero;
   for (auto it = contacts.rbegin(); it != contacts.rend(); ++it) {

@@ -162,28 +162,33 @@ TEST(LiquidBridge, IsAllThatActsWhereBodiesAreApart)
 }
 
 // Asked in each step, without a root.
-TEST(LawTable, TellsWhetherAContactLasts)
+double limit_of_contact(const LawTable &table, double radius, double other)
+{
+  const Vec8 limits = table.limits_of_contacts(0, splat<Vec8>(radius),
+                                               Vec8{other, 1.0, 0.0, other, 2.0, 3.0, 4.0, 5.0});
+  EXPECT_EQ(limits[2], 0.0);    // that is no sphere
+  EXPECT_EQ(limits[0], limits[3]);
+  return limits[0];
+}
+
+TEST(LawTable, TellsHowFarContactsLast)
 {
   for (const std::string &words :
        {dry + "willett 0.07 35 volume 1e-11", dry + "rabinovich 0.07 0 fraction 0.01",
-        std::string("jkr 1e5 20 0.3 2.0")}) {
+        std::string("jkr 1e5 20 0.3 2.0"), std::string("jkr 1e5 20 0.3 0.0"),
+        dry.substr(0, dry.find(" adhesion"))}) {
     for (const double other : {1e-3, 4e-3}) {
       const Pair pair(words, 1e-3, other);
       LawTable table;
       table.reset(1);
       table.set(1, 1, pair.law, pair.row);
       table.finish();
-      for (const double part : {1e-6, 0.3, 1.0 - 1e-12, 1.0 + 1e-12, 2.0})
-        EXPECT_EQ(table.lasts(0, 1e-3, other, part * pair.reach()), part < 1.0) << words;
-      EXPECT_FALSE(table.lasts(0, 1e-3, 0.0, 0.0));
+      const double distance = 1e-3 + other + pair.reach();
+      const double expected = pair.reach() > 0.0 ? -distance * distance : 0.0;
+      EXPECT_NEAR(limit_of_contact(table, 1e-3, other), expected, 1e-15 * distance * distance)
+          << words;
     }
   }
-  const Pair pair("jkr 1e5 20 0.3 0.0", 1e-3, 1e-3);
-  LawTable table;
-  table.reset(1);
-  table.set(1, 1, pair.law, pair.row);
-  table.finish();
-  EXPECT_FALSE(table.lasts(0, 1e-3, 1e-3, -1e-20));    // no reach, and the gap is rounded
 }
 
 /// Contacts in all directions, which move and remember something; half of them apart, if such are computed.
@@ -235,7 +240,6 @@ TEST(FusedKernels, MayBeFollowed)
     }
     for (int n = 0; n < 200; n++) {
       ContactBatch fused = random_contacts(random, pair), staged = fused;
-      for (auto &one : fused.twisting_torque) one[n % ContactBatch::width] = 1.0;    // is written
       kernel(fused, 0, ContactBatch::width, &pair.row, 1e-6);
       stages(staged, 0, ContactBatch::width, &pair.row, 1e-6);
       const auto same = [](const auto &a, const auto &b) { return !std::memcmp(a, b, sizeof a); };
@@ -244,7 +248,6 @@ TEST(FusedKernels, MayBeFollowed)
       ASSERT_TRUE(same(fused.history, staged.history)) << last;
       if (!pair.law.conducts_heat()) continue;
       ASSERT_TRUE(same(fused.heat_flow, staged.heat_flow)) << last;
-      ASSERT_TRUE(same(fused.twisting_torque, staged.twisting_torque)) << last;
     }
   }
 }

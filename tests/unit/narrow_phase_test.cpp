@@ -146,4 +146,60 @@ TEST(NarrowPhase, MasksWhatTouchesAndForgetsTheRest)
   EXPECT_GT(forgotten, 1000);
 }
 
+/// By limits of any sign, and a question that is asked of those alone that have ended.
+TEST(NarrowPhase, FindsWhatTouchesBeyondOverlap)
+{
+  RandomSource random(4);
+  int reached = 0, lasted = 0, held = 0;
+  for (int count = 0; count <= 40; count++) {
+    const RandomPairs random_pairs(count, random);
+    const PairList &pairs = random_pairs.list;
+    ContactHistory history;
+    history.fetch(pairs, HistoryStore());
+    AlignedVector<double> limits(count + 8);
+    std::vector<char> before(count), holds(count);
+    for (int c = 0; c < count; c++) {
+      limits[c] = random.uniform(-4.0, 4.0);
+      holds[c] = random.chance(0.3);
+    }
+    for (int step = 0; step < 20; step++) {
+      const std::vector<Record> position = random_positions(random);
+      const auto overlaps = [&](int c) {
+        return touch(position[pairs.first[c]], position[pairs.second[c]]);
+      };
+      const auto within = [&](int c) {
+        const Record &a = position[pairs.first[c]], &b = position[pairs.second[c]];
+        double square = 0.0;
+        for (int d = 0; d < 3; d++) square += (a.c[d] - b.c[d]) * (a.c[d] - b.c[d]);
+        return square < limits[c] || (before[c] && square < -limits[c]);
+      };
+      const BeyondTouch::Lasts asked = [&](std::int64_t pair, unsigned ended) {
+        unsigned found = 0;
+        for (int k = 0; k < 8; k++)
+          if (ended >> k & 1U) {
+            const int c = static_cast<int>(pair) + k;
+            EXPECT_TRUE(before[c] && !overlaps(c) && !within(c));
+            if (holds[c]) found |= 1U << k;
+          }
+        return found;
+      };
+      std::vector<std::uint32_t> found(count + 8), expected;
+      found.resize(find_contacts(pairs, 0, count, position.data(), &history, found.data(),
+                                 {limits.data(), &asked}));
+      for (int c = 0; c < count; c++) {
+        const bool now = overlaps(c) || within(c) || (before[c] && holds[c]);
+        reached += !overlaps(c) && within(c) && !before[c];
+        lasted += !overlaps(c) && within(c) && limits[c] < 0.0;
+        held += now && !overlaps(c) && !within(c);
+        before[c] = now;
+        if (now) expected.push_back(c);
+      }
+      ASSERT_EQ(found, expected);
+    }
+  }
+  EXPECT_GT(reached, 300);
+  EXPECT_GT(lasted, 300);
+  EXPECT_GT(held, 300);
+}
+
 }    // namespace

@@ -9,6 +9,7 @@
 // Some laws use pow, tanh and the like of the C library. glibc computes those with the same bits
 // where processors have fused multiply-add: x86-64 since 2013, and aarch64.
 
+#include "base/power.h"
 #include "body/contact/body_contacts.h"
 #include "body/shape/box.h"
 #include "body/shape/frustum.h"
@@ -25,6 +26,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <memory>
 
 using namespace Talus;
@@ -316,6 +319,23 @@ TEST(SameEverywhere, CubeRoots)
   EXPECT_EQ(cube_root(27.0), 3.0);
   EXPECT_EQ(cube_root(-64.0), -4.0);
   expect_digest(0x72b120088dd3daa0U, digest, "cube roots");
+}
+
+TEST(SameEverywhere, CubeRootsOfVectors)
+{
+  RandomSource random(6);
+  for (int n = 0; n < 20000; n++) {
+    Vec8 numbers;
+    for (int k = 0; k < lanes; k++)
+      numbers[k] = std::ldexp(random.uniform(-2.0, 2.0), random.below(2000) - 1000);
+    if (n % 3 == 0) numbers[n % lanes] = n % 2 ? 0.0 : -0.0;
+    if (n % 100 == 0) numbers[n % lanes] = n % 200 ? 5e-320 : HUGE_VAL;
+    const Vec8 roots = cube_root(numbers);
+    for (int k = 0; k < lanes; k++) {
+      const double alone = cube_root(numbers[k]), found = roots[k];
+      ASSERT_EQ(std::memcmp(&alone, &found, sizeof alone), 0) << numbers[k];
+    }
+  }
 }
 
 }    // namespace

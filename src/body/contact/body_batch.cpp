@@ -123,20 +123,19 @@ unsigned BodyBatch::touching_eight(std::size_t first, int low, int high)
   if (!law.lasts_beyond_contact()) return task->shape.touches_eight(in_body, high, contacts);
   const unsigned of_this_thread = (1U << high) - (1U << low);
   const unsigned begun = task->history.touched(first / width) & of_this_thread;
-  const unsigned asked =
-      law.reaches() ? of_this_thread : begun | task->shape.touches_eight(in_body, high, contacts);
-  if (!(asked & of_this_thread)) return 0;
-  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, asked & of_this_thread);
-  unsigned bits = task->shape.touches_eight(reaching, high, contacts);
-  for (unsigned rest = bits; rest; rest &= rest - 1U) {
+  const unsigned touching = task->shape.touches_eight(in_body, high, contacts) & of_this_thread;
+  const unsigned asked = (law.reaches() ? of_this_thread : begun) & ~touching;
+  if (!asked) return touching;
+  const EightSpheres &reaching = as_far_as_contacts_last(first, in_body, asked);
+  const unsigned bits = task->shape.touches_eight(reaching, high, contacts);
+  for (unsigned rest = bits & asked; rest; rest &= rest - 1U) {
     const int k = __builtin_ctz(rest);
     contacts.overlap[k] -= pulloff[k];
-    if (!(contacts.overlap[k] > 0.0) && !law.reaches()) bits &= begun | ~(1U << k);
   }
   return bits;
 }
 
-/* `asked`: those that may touch or have begun; the others need no root. */
+/* `asked`: those that are apart and have begun, or that reach; the others need no root. */
 
 const EightSpheres &BodyBatch::as_far_as_contacts_last(std::size_t first,
                                                        const EightSpheres &in_body, unsigned asked)

@@ -7,6 +7,7 @@
 #include "laws/change_of_order.h"
 
 #include <algorithm>
+#include <map>
 
 namespace Talus {
 
@@ -84,10 +85,17 @@ double BodyContacts::largest_pulloff_distance(const ParticleState &view, const i
 {
   double largest = 0.0;
   if (!laws->lasts_beyond_contact()) return largest;
-  for (int i = 0; i < view.owned(); i++)
-    if (mask[i] & group)
-      largest = std::max(
-          largest, laws->pulloff_distance(laws->row(view.type(i), view.type(i)), view.radius(i)));
+  std::map<int, double> radius_of_type;    // that of larger ones is larger
+  int type = 0;
+  double *radius = nullptr;
+  for (int i = 0; i < view.owned(); i++) {
+    if (!(mask[i] & group)) continue;
+    if (!radius || view.type(i) != type) radius = &radius_of_type[type = view.type(i)];
+    *radius = std::max(*radius, view.radius(i));
+  }
+  for (const auto &[of_type, radius_of_largest] : radius_of_type)
+    largest =
+        std::max(largest, laws->pulloff_distance(laws->row(of_type, of_type), radius_of_largest));
   return largest;
 }
 

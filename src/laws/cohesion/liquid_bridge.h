@@ -89,7 +89,8 @@ template <class Model> struct LiquidBridge : CohesionLaw {
             least_gap > 0.0 ? least_gap : 1.0};
   }
 
-  static double pulloff_cube(const BridgeRow<double> &c, const ContactSize &size)
+  template <class Real>
+  TALUS_INLINE static Real pulloff_cube(const BridgeRow<Real> &c, const ContactSize<Real> &size)
   {
     return c.reach * c.reach * c.reach * (c.volume + c.fraction * size.volume);
   }

@@ -90,7 +90,8 @@ template <class Model> struct LiquidBridgeOfParticles : LiquidBridge<Model> {
             c.fraction, c.viscosity, c.least_gap, m.mean("share")};
   }
 
-  static double pulloff_cube(const LiquidRow<double> &c, const ContactSize &size)
+  template <class Real>
+  TALUS_INLINE static Real pulloff_cube(const LiquidRow<Real> &c, const ContactSize<Real> &size)
   {
     return Given::pulloff_cube(c.bridge(), size);
   }

@@ -13,6 +13,7 @@
 #ifndef TALUS_LAWS_HEAT_COMMON_H
 #define TALUS_LAWS_HEAT_COMMON_H
 
+#include "base/power.h"
 #include "laws/law_definition.h"
 #include "laws/restitution.h"
 

@@ -61,9 +61,10 @@ struct HeatGas : Conduction {
   }
 
   /// In proportion to the radius, as ContactLaw::reaches() demands.
-  static double pulloff_cube(const GasRow<double> &c, const ContactSize &size)
+  template <class Real>
+  TALUS_INLINE static Real pulloff_cube(const GasRow<Real> &c, const ContactSize<Real> &size)
   {
-    const double distance = 2.0 * c.reach * size.radius;
+    const Real distance = 2.0 * c.reach * size.radius;
     return distance * distance * distance;
   }
 

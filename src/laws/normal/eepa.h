@@ -129,7 +129,8 @@ struct Eepa : NormalLaw {
     const Real zero = splat<Real>(0.0), one = splat<Real>(1.0);
     if (!any(c.gamma > zero)) return zero;
     const Real plastic = c.lambda * deepest, half = 0.5 * stiff * plastic;
-    const Real patch = radius * square_root(2.0 * power(plastic, one / c.n));
+    const Real patch =
+        1.41421356237309504880 * radius * real_power(plastic, splat<Real>(0.5) / c.n);
     const Real by_area = (1.5 * pi) * c.gamma * patch, most = select(by_area < half, by_area, half);
     const auto sticks = most > zero;
     const Real share = select(sticks, u, zero) / select(sticks, plastic - most / stiff, one),

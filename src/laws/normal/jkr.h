@@ -11,6 +11,7 @@
 #ifndef TALUS_LAWS_NORMAL_JKR_H
 #define TALUS_LAWS_NORMAL_JKR_H
 
+#include "base/power.h"
 #include "laws/normal/adhesive.h"
 
 #include <algorithm>
@@ -23,9 +24,10 @@ struct Jkr : AdhesiveLaw {
   static constexpr bool lasts_beyond_contact = true;
 
   /// 3 pi^2/16 R gamma^2/E^2
-  static double pulloff_cube(const Row<double> &c, const ContactSize &size)
+  template <class Real>
+  TALUS_INLINE static Real pulloff_cube(const Row<Real> &c, const ContactSize<Real> &size)
   {
-    const double ratio = c.gamma / c.young;
+    const Real ratio = c.gamma / c.young;
     return 3.0 * pi * pi / 16.0 * size.radius * ratio * ratio;
   }
 

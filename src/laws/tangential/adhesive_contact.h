@@ -16,6 +16,7 @@
 #ifndef TALUS_LAWS_TANGENTIAL_ADHESIVE_CONTACT_H
 #define TALUS_LAWS_TANGENTIAL_ADHESIVE_CONTACT_H
 
+#include "base/power.h"
 #include "laws/tangential/midpoint.h"
 
 namespace Talus {

@@ -2,6 +2,8 @@
 
 #include "shape/convex/convex_shape.h"
 
+#include "base/cube_root.h"
+
 #include "body/shape/stl_file.h"
 #include "body/shape/triangle_mesh.h"
 #include "shape/convex/convex_hull.h"

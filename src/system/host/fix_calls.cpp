@@ -189,6 +189,7 @@ void FixCalls::find_members(Called &called) const
 
 void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 {
+  if (!quantities) return;
   const ParticleState particles = system.step().particles();
   const bool rotates = particles.keeps_omega();
   const auto exchange = [to_arrays](double *in_records, double *in_arrays) {
