@@ -147,6 +147,7 @@ void ContactChunk::notice_deeper(const ParticleRecords &particles, int end)
   const std::vector<int> &atom = pairs.order().atom_of_slot;
   const int *state = pairs.state_of_first();
   for (int k = 0; k < end; k++) {
+    if (!(batch.overlap[k] * batch.inverse_radius[k] > deepest.overlap_ratio)) continue;
     const std::uint32_t pair = pair_of_lane[k];
     const int j = pairs.second[pair];
     const Record &a = particles.position[state[pair]], &b = particles.position[j];
