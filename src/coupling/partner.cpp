@@ -356,7 +356,8 @@ void talus_partner::command(const std::string &line)
 
 void talus_partner::set_up_if_needed()
 {
-  if (needs_set_up || !system().setup_state().change_with_particles().empty()) set_up();
+  const auto &state = system().setup_state();
+  if (needs_set_up || !state.change_with_particles().empty() || state.has_new_dump()) set_up();
 }
 
 void talus_partner::set_up_if_lost()

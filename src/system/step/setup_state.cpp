@@ -16,6 +16,7 @@
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
+#include "output.h"
 #include "pair.h"
 #include "region.h"
 #include "update.h"
@@ -193,6 +194,14 @@ std::string SetupState::change_with_particles() const
   return found.empty() && others
              ? "particles have been added, deleted, sorted or moved to other ranks"
              : found;
+}
+
+/* LAMMPS tells dumps when to write next as it sets up a run; that of a new one is step 0. */
+
+bool SetupState::has_new_dump() const
+{
+  const bigint *const next = output->next_dump;
+  return std::any_of(next, next + output->ndump, [](bigint step) { return step == 0; });
 }
 
 bool SetupState::has_other_ghosts() const

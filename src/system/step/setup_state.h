@@ -52,6 +52,8 @@ class SetupState : protected LAMMPS_NS::Pointers {
   std::string change_with_particles() const;
   /// The pair style is not the one that was set up.
   bool has_another_pair_style() const { return is_set_up && then.pair != present_pair(); }
+  /// A dump has been defined that no run has been set up with: LAMMPS ends one rank when it is written, or all.
+  bool has_new_dump() const;
   /// Where each rank owns the same particles as then, in the same order: whether ghosts are others, so that
   /// neighbor lists have to be made.
   bool has_other_ghosts() const;
