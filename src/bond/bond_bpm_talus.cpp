@@ -89,6 +89,17 @@ template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::find_r
   return system->pair_style().reason_against();
 }
 
+/* In the records the pair style of Talus alone computes pairs, and its contacts may have no torques. */
+
+template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::needs_arrays() const
+{
+  if (system->account().is_asked()) return "their work is accounted for";
+  if (!system->pair_style().is_alone()) return "the pair style is hybrid";
+  if (!Bonds::has_torques) return "";
+  if (system->shapes()) return "there are particles with a shape";
+  return system->law_table().has_friction() ? "" : "contacts have no torques";
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int eflag, int vflag)
@@ -121,12 +132,13 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int e
 
 template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::add_loads(bool accounted)
 {
-  Atom &to = *this->atom;
   const int threads = this->comm->nthreads;
-  if (!accounted)
-    return bonds.add_to(to.f[0], Bonds::has_torques ? to.torque[0] : nullptr, threads);
-  bonds.add_to(force_of_bonds(), Bonds::has_torques ? torque_of_bonds() : nullptr, threads);
-  end_step(to);
+  if (!accounted) return bonds.add_to(system->step().particles(), threads);
+  Talus::ParticleView alone{};
+  alone.f = force_of_bonds();
+  if (Bonds::has_torques) alone.torque = torque_of_bonds();
+  bonds.add_to({this->atom->nlocal, alone, this->atom->type}, threads);
+  end_step(*this->atom);
 }
 
 /* A bond to a particle of another rank is there as well. */
@@ -227,6 +239,7 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::break_bonds(b
     const BondEnds bond = bonds.bond(n);
     if (accounted) add_broken(share_of(n) * bonds.stored_energy(n));
     this->neighbor->bondlist[n][2] = 0;
+    system->step().show({bond.first, bond.second});    // `store/local` may ask where they are
     this->process_broken(bond.first, bond.second);
     bonds.drop(n);
   });

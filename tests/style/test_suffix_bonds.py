@@ -7,7 +7,7 @@ contacts where bonds have broken, the same bits on any ranks and threads, and re
 import os
 import unittest
 
-from bonded_scenes import NEW, TALUS, BondedScenes
+from bonded_scenes import NEW, RECORDS, TALUS, BondedScenes
 from talus_testing import SceneCase, read_local, thermo
 
 # an atom style with a topology that the script does not use
@@ -52,7 +52,7 @@ class SuffixBonds(BondedScenes, SceneCase):
         self.compare(1e-6, commands="run 2", every=1)
         self.assert_accelerated("pair gran/hooke/history", "bond bpm/rotational", "fix move nve/bpm/sphere",
                                 "fix floor wall/gran", "fix weight gravity")
-        self.assertIn("through the arrays of LAMMPS: there are bonds", self.log)
+        self.assertRegex(self.log, RECORDS)
 
     def test_styles_without_forces(self):
         """Bonds and angles of style zero leave steps in the records, with the bits of an atom style without them."""

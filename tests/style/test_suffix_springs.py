@@ -8,7 +8,7 @@ import os
 import unittest
 
 from bonded_grains import crystal
-from bonded_scenes import NEW, TALUS, BondedScenes
+from bonded_scenes import NEW, RECORDS, TALUS, BondedScenes
 from talus_testing import SceneCase, thermo
 
 # four bonded spheres
@@ -71,7 +71,7 @@ class SuffixSprings(BondedScenes, SceneCase):
         self.compare(1e-13, commands="run 2", every=1)
         self.assert_accelerated("pair gran/hooke/history", "bond bpm/spring", "fix move nve/bpm/sphere",
                                 "fix floor wall/gran", "fix weight gravity")
-        self.assertIn("through the arrays of LAMMPS: there are bonds", self.log)
+        self.assertRegex(self.log, RECORDS)
 
     def test_all_words(self):
         pulled = dict(coeffs="bond_coeff * 30.0 0.2 0.3")
