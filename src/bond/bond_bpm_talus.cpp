@@ -93,7 +93,6 @@ template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::find_r
 
 template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::needs_arrays() const
 {
-  if (system->account().is_asked()) return "their work is accounted for";
   if (!system->pair_style().is_alone()) return "the pair style is hybrid";
   if (!Bonds::has_torques) return "";
   if (system->shapes()) return "there are particles with a shape";
@@ -114,7 +113,7 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int e
   const Talus::EnergyAccount &account = system->account();
   const bool accounted = account.is_asked();
   if (accounted)
-    begin_step(*this->atom, this->update->dt, this->update->setupflag != 0,
+    begin_step(system->step().particles(), this->update->dt, this->update->setupflag != 0,
                account.counted_of_last_step());
   else
     leave_out_step();
@@ -128,17 +127,19 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int e
   end_bonds();
 }
 
-/* The same bits in both ways: the loads of a particle are summed before they are added. */
+/* The loads of a particle are summed before they are added. */
 
 template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::add_loads(bool accounted)
 {
   const int threads = this->comm->nthreads;
-  if (!accounted) return bonds.add_to(system->step().particles(), threads);
+  const Talus::ParticleState particles = system->step().particles();
+  bonds.add_to(particles, threads);
+  if (!accounted) return;
   Talus::ParticleView alone{};
   alone.f = force_of_bonds();
   if (Bonds::has_torques) alone.torque = torque_of_bonds();
   bonds.add_to({this->atom->nlocal, alone, this->atom->type}, threads);
-  end_step(*this->atom);
+  end_step(particles);
 }
 
 /* A bond to a particle of another rank is there as well. */
