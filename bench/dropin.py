@@ -85,7 +85,7 @@ run {steps}
 
 # bonds between all grains of a block that falls on a plate
 BLOCK_SIDE = 10     # cells of four spheres
-BLOCK_FLOOR = AGGLOMERATE_FLOOR = 2.5
+AGGLOMERATE_FLOOR = 2.5
 BLOCK = """units lj
 boundary s s m
 atom_style bpm/sphere
@@ -115,9 +115,9 @@ thermo 1000
 run {steps}
 """
 
-BLOCKS = [    # case, style, coefficients
-    ("bonds.block", "bpm/rotational", "30.0 10.0 2.0 3.0 1e9 1e9 1e9 1e9 0.3 0.2 0.1 0.05"),
-    ("bonds.springs", "bpm/spring", "30.0 1e9 0.3"),
+BLOCKS = [    # case, style, coefficients, floor
+    ("bonds.block", "bpm/rotational", "30.0 10.0 2.0 3.0 1e9 1e9 1e9 1e9 0.3 0.2 0.1 0.05", 2.5),
+    ("bonds.springs", "bpm/spring", "30.0 1e9 0.3", 1.2),
 ]
 
 TRIAXIAL_SIDE = 12  # spheres
@@ -201,12 +201,12 @@ def gas_cases(bench):
 def bonded_cases(bench):
     """Blocks; and the ball of the example, which breaks. Rods are those of in.bpm.pour."""
     side = BLOCK_SIDE * (4 / 1.33) ** (1 / 3)
-    for name, style, coefficients in BLOCKS:
+    for name, style, coefficients, floor in BLOCKS:
         if not bench.wants(name):
             continue
         bonds = f"bond_style {style} break no smooth no\nbond_coeff 1 {coefficients}"
         yield Case(bench, name, f"a block of {4 * BLOCK_SIDE**3} spheres with bond_style {style}",
-                   BLOCK.format(side=BLOCK_SIDE - 0.01, edge=side + 3, bonds=bonds, steps=bench.size(2000, 200)), BLOCK_FLOOR)
+                   BLOCK.format(side=BLOCK_SIDE - 0.01, edge=side + 3, bonds=bonds, steps=bench.size(2000, 200)), floor)
     if bench.wants("bonds.agglomerate"):
         with open(os.path.join(machine.ROOT, "examples", "bonds", "in.agglomerate")) as file:
             text = file.read()

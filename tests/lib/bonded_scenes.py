@@ -180,11 +180,13 @@ class BondedScenes:
                 self.assert_same_bits(a, b, a.columns)
 
     def test_records_with_others(self):
-        """Spheres that have no bonds, of a fix of their own, or that are frozen; contacts of bonded spheres; a fix of LAMMPS on all."""
+        """Spheres that have a fix of their own, are frozen or in clumps; contacts of bonded spheres; a fix of LAMMPS on some."""
         parts = "group some id <= 5\ngroup rest subtract all some\n"
         self.in_the_records(more=f"{parts}unfix move\nfix move rest {self.MOVER}\nfix other some {self.MOVER}\n"
                                  "fix push rest addforce 0.05 0.0 0.0\n", ways=((1, 1), (2, 2)))
         self.in_the_records(more=f"{parts}velocity some set 0 0 0\nfix still some freeze\n", ways=((1, 2), (2, 1)))
+        self.in_the_records(more=f"{parts}set atom 1*3 mol 1\nset atom 4*5 mol 2\nunfix move\nfix move rest {self.MOVER}\n"
+                                 "fix clumps some rigid/small molecule\n", ways=((1, 1), (2, 2)))
         overlap = "run_style verlet/proxy overlap yes"
         self.in_the_records(words="overlay/pair yes", special="lj 1 1 1 coul 1 1 1", style=overlap, boundary="p p m",
                             ways=((2, 1), (3, 1), (2, 2)))
