@@ -19,6 +19,7 @@ atom_style {atoms}
 newton {newton}
 comm_modify vel yes cutoff 3.0
 special_bonds {special}
+{grid}
 """
 SCENE = HEAD + """
 read_data grains
@@ -78,7 +79,7 @@ class BondedScenes:
         """With these options; its data file is in the folder then."""
         settings = dict(atoms="bpm/sphere", move="nve/bpm/sphere", boundary="s s m", newton="on off", special="lj 0 1 1 coul 1 1 1",
                         bond=self.BOND, words="", coeffs=f"bond_coeff * {self.WHOLE}", pair=PAIR, every=50, more="",
-                        commands="run 200", again="")
+                        commands="run 200", again="", grid="")
         settings.update(options)
         if settings["bond"] == self.BOND and "frame" not in settings["words"]:
             settings["words"] += " " + self.WORDS
@@ -159,10 +160,10 @@ class BondedScenes:
         self.in_the_records(commands="run 70\nrun 30 pre no\nrun 200")
 
     def in_the_records(self, ways=((1, 1), (2, 1), (3, 1), (1, 2), (2, 2)), style="", **more):
-        """At steps with output only is anything shown."""
+        """At steps with output only is anything shown; borders of ranks cut bonds."""
         options = self.breaking(**{"commands": "run 300", **more})
         commands = options["commands"]
-        options.update(words="store/local broken 50 time id1 id2 x y z " + more.get("words", ""), every=100,
+        options.update(grid="processors * * 1", words="store/local broken 50 time id1 id2 x y z " + more.get("words", ""), every=100,
                        more="dump b all local 50 breaks f_broken[*]\ndump_modify b format float %.17g\n" + more.get("more", ""))
         reference = self.simulate(TALUS, **{**options, "commands": f"run_style verlet/stock\n{commands}"})
         self.assertNotRegex(self.log, RECORDS)
