@@ -162,7 +162,9 @@ class BondedScenes:
     def in_the_records(self, ways=((1, 1), (2, 1), (3, 1), (1, 2), (2, 2)), style="", **more):
         """At steps with output only is anything shown; borders of ranks cut bonds."""
         options = self.breaking(**{"commands": "run 300", **more})
-        commands = options["commands"]
+        # where particles are wrapped they are rounded: lists have to be made in the same steps
+        lists = "neigh_modify every 5 delay 0 check no\n" if options.get("boundary", "s").startswith("p") else ""
+        commands = lists + options["commands"]
         options.update(grid="processors * * 1", words="store/local broken 50 time id1 id2 x y z " + more.get("words", ""), every=100,
                        more="dump b all local 50 breaks f_broken[*]\ndump_modify b format float %.17g\n" + more.get("more", ""))
         reference = self.simulate(TALUS, **{**options, "commands": f"run_style verlet/stock\n{commands}"})
