@@ -361,8 +361,13 @@ TEST(RotationalBonds, BreakAtTheirLimit)
     if (factor > 0.0) model.coeffs[2].limit.normal = 1e-12;
     all.set_model(model);
     all.set_bonds(ball.bonds, Agglomerate::count, ball.tag.data());
-    all.compute({{ball.x.data()}, {ball.v.data()}, {ball.omega.data()}, ball.turn.data(),
-                 ball.history.data(), Agglomerate::stride, 1.0},
+    all.compute({{ball.x.data()},
+                 {ball.v.data()},
+                 {ball.omega.data()},
+                 ball.turn.data(),
+                 ball.history.data(),
+                 Agglomerate::stride,
+                 1.0},
                 dt, 2);
     std::vector<int> expected, broken;
     all.for_each_broken([&](int b) { broken.push_back(b); });
