@@ -83,9 +83,9 @@ thermo 1000
 run {steps}
 """
 
-# beams between all grains of a block that falls on a plate
+# bonds between all grains of a block that falls on a plate
 BLOCK_SIDE = 10     # cells of four spheres
-BLOCK_FLOOR = AGGLOMERATE_FLOOR = 2.5
+AGGLOMERATE_FLOOR = 2.5
 BLOCK = """units lj
 boundary s s m
 atom_style bpm/sphere
@@ -105,8 +105,7 @@ pair_style gran/hooke/history 200.0 NULL 5.0 NULL 0.5 1
 pair_coeff * *
 create_bonds many all all 1 0.5 1.2
 special_bonds lj 0 1 1 coul 1 1 1
-bond_style bpm/rotational break no smooth no
-bond_coeff 1 30.0 10.0 2.0 3.0 1e9 1e9 1e9 1e9 0.3 0.2 0.1 0.05
+{bonds}
 velocity all create 0.01 77
 velocity all set NULL NULL -0.3 sum yes
 fix move all nve/bpm/sphere
@@ -115,6 +114,11 @@ fix floor all wall/gran hooke/history 200.0 NULL 5.0 NULL 0.5 1 zplane -1.0 NULL
 thermo 1000
 run {steps}
 """
+
+BLOCKS = [    # case, style, coefficients, floor
+    ("bonds.block", "bpm/rotational", "30.0 10.0 2.0 3.0 1e9 1e9 1e9 1e9 0.3 0.2 0.1 0.05", 2.5),
+    ("bonds.springs", "bpm/spring", "30.0 1e9 0.3", 1.2),
+]
 
 TRIAXIAL_SIDE = 12  # spheres
 TRIAXIAL_FLOOR = 3.0
@@ -195,11 +199,14 @@ def gas_cases(bench):
 
 
 def bonded_cases(bench):
-    """A block; and the ball of the example, which breaks. Rods are those of in.bpm.pour."""
-    if bench.wants("bonds.block"):
-        side = BLOCK_SIDE * (4 / 1.33) ** (1 / 3)
-        yield Case(bench, "bonds.block", f"a block of {4 * BLOCK_SIDE**3} spheres with bond_style bpm/rotational",
-                   BLOCK.format(side=BLOCK_SIDE - 0.01, edge=side + 3, steps=bench.size(2000, 200)), BLOCK_FLOOR)
+    """Blocks; and the ball of the example, which breaks. Rods are those of in.bpm.pour."""
+    side = BLOCK_SIDE * (4 / 1.33) ** (1 / 3)
+    for name, style, coefficients, floor in BLOCKS:
+        if not bench.wants(name):
+            continue
+        bonds = f"bond_style {style} break no smooth no\nbond_coeff 1 {coefficients}"
+        yield Case(bench, name, f"a block of {4 * BLOCK_SIDE**3} spheres with bond_style {style}",
+                   BLOCK.format(side=BLOCK_SIDE - 0.01, edge=side + 3, bonds=bonds, steps=bench.size(2000, 200)), floor)
     if bench.wants("bonds.agglomerate"):
         with open(os.path.join(machine.ROOT, "examples", "bonds", "in.agglomerate")) as file:
             text = file.read()

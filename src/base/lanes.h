@@ -35,12 +35,17 @@ inline void to_rows(const double (*vector)[width], const double *fourth, int k, 
 struct EightRows {
   Vec8 number[4];
 };
-template <class Which> TALUS_INLINE EightRows to_lanes(Which row)
+/// The same where row(k) is a Vec4.
+template <class Row> TALUS_INLINE EightRows lanes_of(Row row)
 {
   EightRows to;
-  for (int k = 0; k < 4; k++) to.number[k] = join(load4(row(k)), load4(row(k + 4)));
+  for (int k = 0; k < 4; k++) to.number[k] = join(row(k), row(k + 4));
   transpose(to.number[0], to.number[1], to.number[2], to.number[3]);
   return to;
+}
+template <class Which> TALUS_INLINE EightRows to_lanes(Which row)
+{
+  return lanes_of([row](int k) { return load4(row(k)); });
 }
 
 /// The reverse: lane k becomes rows[k].

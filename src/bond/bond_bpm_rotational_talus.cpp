@@ -72,7 +72,8 @@ Talus::BondModel BondBPMRotationalTalus::model() const
 void BondBPMRotationalTalus::load_bonds(bool)
 {
   if (bonds.count() == 0) return;
-  bonds.compute({atom->x[0], atom->v[0], atom->omega[0], atom->quat[0],
+  const Talus::ParticleState now = system->step().particles();
+  bonds.compute({now.positions(), now.velocities(), now.angular_velocities(), atom->quat[0],
                  fix_bond_history->bondstore[0], fix_bond_history->get_ndata(), sign_of_history},
                 update->dt, comm->nthreads);
 }

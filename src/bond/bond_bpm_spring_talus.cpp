@@ -54,9 +54,10 @@ void BondBPMSpringTalus::load_bonds(bool first)
   if (volume_flag) find_volumes(first);
   added.clear();
   if (bonds.count() == 0) return;
+  const Talus::ParticleState now = system->step().particles();
   const bool breaks =
       break_flag != 0 && !(TALUS_HOST_KEEPS_SPRINGS_IN_SETUP && update->setupflag != 0);
-  bonds.compute({atom->x[0], atom->v[0], fix_bond_history->bondstore[0],
+  bonds.compute({now.positions(), now.velocities(), fix_bond_history->bondstore[0],
                  volume_flag ? atom->dvector[index_vol] : nullptr,
                  volume_flag ? atom->dvector[index_vol0] : nullptr},
                 breaks, comm->nthreads);
@@ -94,7 +95,7 @@ bool BondBPMSpringTalus::has_no_volumes(bool first) const
 void BondBPMSpringTalus::find_volumes(bool first)
 {
   double *const now = atom->dvector[index_vol], *const at_rest = atom->dvector[index_vol0];
-  bonds.sum_volumes(atom->x[0], now, comm->nthreads);
+  bonds.sum_volumes(system->step().particles().positions(), now, comm->nthreads);
   if (has_no_volumes(first))
     std::copy(now, now + atom->nlocal, at_rest);
   else

@@ -89,6 +89,16 @@ template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::find_r
   return system->pair_style().reason_against();
 }
 
+/* In the records the pair style of Talus alone computes pairs, and its contacts may have no torques. */
+
+template <class Base, class Bonds> std::string BondBPMTalus<Base, Bonds>::needs_arrays() const
+{
+  if (!system->pair_style().is_alone()) return "the pair style is hybrid";
+  if (!Bonds::has_torques) return "";
+  if (system->shapes()) return "there are particles with a shape";
+  return system->law_table().has_friction() ? "" : "contacts have no torques";
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int eflag, int vflag)
@@ -103,7 +113,7 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int e
   const Talus::EnergyAccount &account = system->account();
   const bool accounted = account.is_asked();
   if (accounted)
-    begin_step(*this->atom, this->update->dt, this->update->setupflag != 0,
+    begin_step(system->step().particles(), this->update->dt, this->update->setupflag != 0,
                account.counted_of_last_step());
   else
     leave_out_step();
@@ -117,16 +127,19 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::compute(int e
   end_bonds();
 }
 
-/* The same bits in both ways: the loads of a particle are summed before they are added. */
+/* The loads of a particle are summed before they are added. */
 
 template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::add_loads(bool accounted)
 {
-  Atom &to = *this->atom;
   const int threads = this->comm->nthreads;
-  if (!accounted)
-    return bonds.add_to(to.f[0], Bonds::has_torques ? to.torque[0] : nullptr, threads);
-  bonds.add_to(force_of_bonds(), Bonds::has_torques ? torque_of_bonds() : nullptr, threads);
-  end_step(to);
+  const Talus::ParticleState particles = system->step().particles();
+  bonds.add_to(particles, threads);
+  if (!accounted) return;
+  Talus::ParticleView alone{};
+  alone.f = force_of_bonds();
+  if (Bonds::has_torques) alone.torque = torque_of_bonds();
+  bonds.add_to({this->atom->nlocal, alone, this->atom->type}, threads);
+  end_step(particles);
 }
 
 /* A bond to a particle of another rank is there as well. */
@@ -227,6 +240,7 @@ template <class Base, class Bonds> void BondBPMTalus<Base, Bonds>::break_bonds(b
     const BondEnds bond = bonds.bond(n);
     if (accounted) add_broken(share_of(n) * bonds.stored_energy(n));
     this->neighbor->bondlist[n][2] = 0;
+    system->step().show({bond.first, bond.second});    // `store/local` may ask where they are
     this->process_broken(bond.first, bond.second);
     bonds.drop(n);
   });

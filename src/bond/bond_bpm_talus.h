@@ -38,6 +38,7 @@ class BondBPMTalus : public Base, public Talus::SystemStyle, public Talus::BondA
 
   // SystemStyle
   std::string reason_for_stock() const override { return reason; }
+  std::string needs_arrays() const override;
 
  protected:
   // how LAMMPS tallies bonds of this style
@@ -66,8 +67,9 @@ class BondBPMTalus : public Base, public Talus::SystemStyle, public Talus::BondA
   using Strengths = std::initializer_list<std::pair<const char *, const double *>>;
   void check_strengths(Strengths, const char *what) const;
 
- private:
   std::shared_ptr<Talus::GranularSystem> system;
+
+ private:
   std::string reason = "no run yet";    // for the methods of LAMMPS
   const Tally tally;
   int **listed = nullptr;    // the list that bonds are from

@@ -7,14 +7,14 @@
 
 #include "base/lanes.h"
 #include "base/vector3.h"
-#include "particles/record.h"
+#include "particles/particle_rows.h"
 
 #include <algorithm>
 #include <cstdint>
 
 namespace Talus {
 
-/// Of one bond: where its particles are, `first` with the lower ID, and its type, from 1; of one that is gone, 0.
+/// Of one bond: local indices of its particles, `first` with the lower ID, and its type, from 1; of one that is gone, 0.
 struct BondEnds {
   int first, second, type;
 };
@@ -33,31 +33,16 @@ struct EightBonds {
   }
 };
 
-/// Lane k: the numbers of row(k), a Vec4.
-template <class Row> TALUS_INLINE EightRows lanes_of(Row row)
-{
-  EightRows to;
-  for (int k = 0; k < 4; k++) to.number[k] = join(row(k), row(k + 4));
-  transpose(to.number[0], to.number[1], to.number[2], to.number[3]);
-  return to;
-}
-
 TALUS_INLINE Vector3<Vec8> vector_of(const EightRows &rows)
 {
   return {rows.number[0], rows.number[1], rows.number[2]};
 }
 
-/// One of rows of three, by place of a particle.
-TALUS_INLINE Vec4 row_at(const double *rows, int place)
-{
-  return record_of(rows + 3 * static_cast<std::int64_t>(place), 0.0);
-}
-
 /// Those of the first particles less those of the second ones.
-TALUS_INLINE Vector3<Vec8> differences(const double *rows, const BondEnds *ends)
+TALUS_INLINE Vector3<Vec8> differences(const ParticleRows &rows, const BondEnds *ends)
 {
   return vector_of(
-      lanes_of([=](int k) { return row_at(rows, ends[k].first) - row_at(rows, ends[k].second); }));
+      lanes_of([=](int k) { return rows.at(ends[k].first) - rows.at(ends[k].second); }));
 }
 
 }    // namespace Talus

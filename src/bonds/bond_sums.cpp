@@ -56,19 +56,19 @@ double BondSums::memory_usage() const
 
 /* ---------------------------------------------------------------------- */
 
-void BondSums::add_to(double *force, double *torque, int threads) const
+void BondSums::add_to(const ParticleState &particles, int threads) const
 {
   if (turning)
-    add_all<true>(force, torque, threads);
+    add_all<true>(particles, threads);
   else
-    add_all<false>(force, torque, threads);
+    add_all<false>(particles, threads);
 }
 
 template <bool with_torques>
-void BondSums::add_all(double *force, double *torque, int threads) const
+void BondSums::add_all(const ParticleState &particles, int threads) const
 {
   const auto owned = static_cast<std::int64_t>(sides_begin.size()) - 1;
-  in_ranges(owned, threads, [=](int, int begin, int end) {
+  in_ranges(owned, threads, [&](int, int begin, int end) {
     for (int i = begin; i < end; i++) {
       const std::uint32_t first = sides_begin[i], last = sides_begin[i + 1L];
       if (first == last) continue;
@@ -79,9 +79,7 @@ void BondSums::add_all(double *force, double *torque, int threads) const
         f = is_first ? f + on_first : f - on_first;
         if constexpr (with_torques) t = t + load4(is_first ? torques1[bond] : torques2[bond]);
       }
-      double *const of_i = force + 3L * i;
-      write_row(record_of(of_i, 0.0) + f, of_i);
-      if constexpr (with_torques) write_row(record_of(torque + 3L * i, 0.0) + t, torque + 3L * i);
+      particles.add_at(particles.place(i), f, with_torques ? &t : nullptr);
     }
   });
 }

@@ -14,6 +14,7 @@
 #include "base/aligned_vector.h"
 #include "base/in_parallel.h"
 #include "bonds/bond_rows.h"
+#include "particles/particle_state.h"
 
 #include <cstdint>
 #include <type_traits>
@@ -49,8 +50,8 @@ class BondSums {
   /// Such a bond has no loads from here on.
   void drop(int b);
   bool is_dropped(int b) const { return bonds[b].type == 0; }
-  /// Adds to the rows of three of owned particles; `torque` is not read where bonds have none.
-  void add_to(double *force, double *torque, int threads) const;
+  /// To owned particles; torques where bonds have them.
+  void add_to(const ParticleState &particles, int threads) const;
 
   /// Of the last compute().
   const double *force_on_first(int b) const { return forces[b].c; }
@@ -80,7 +81,7 @@ class BondSums {
   };
   template <class Found>
   void take(const EightBonds &eight, const Found &found, std::vector<int> &breaking);
-  template <bool with_torques> void add_all(double *force, double *torque, int threads) const;
+  template <bool with_torques> void add_all(const ParticleState &particles, int threads) const;
 
   bool turning;
   int num_bonds = 0;

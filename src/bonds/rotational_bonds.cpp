@@ -87,7 +87,7 @@ EightLoads RotationalBonds::loads_of(const EightBonds &eight, const BondedPartic
   pairs.omega = differences(particles.omega, ends);
   if constexpr (damping == BondDamping::DEM) {
     pairs.sum_of_omegas = vector_of(lanes_of([&](int k) {
-      return row_at(particles.omega, ends[k].first) + row_at(particles.omega, ends[k].second);
+      return particles.omega.at(ends[k].first) + particles.omega.at(ends[k].second);
     }));
     pairs.before = BondAngles<Vec8>{};
   } else {

@@ -22,11 +22,12 @@ struct BondModel {
   std::vector<BondCoeffs<double>> coeffs;    ///< by type; that of 0 is not read
 };
 
-/// Rows of three, of orientations four (w, x, y, z), by place of a particle. `history`: rows of `stride` by bond, the
+/// By local index of a particle; orientations in rows of four (w, x, y, z). `history`: rows of `stride` by bond, the
 /// length at rest, the direction at rest (see BondedPair::at_rest) times `sign`, and with damping RATE the angles of the
 /// last step, which are written.
 struct BondedParticles {
-  const double *position, *velocity, *omega, *orientation;
+  ParticleRows position, velocity, omega;
+  const double *orientation;
   double *history;
   int stride;
   double sign;

@@ -72,14 +72,14 @@ EightForces SpringBonds::loads_of(const EightBonds &eight, const SpringParticles
 
 /* ---------------------------------------------------------------------- */
 
-void SpringBonds::sum_volumes(const double *position, double *volumes, int threads)
+void SpringBonds::sum_volumes(const ParticleRows &position, double *volumes, int threads)
 {
   volumes_of_bonds.assign(count(), 0.0);
   in_ranges(count(), threads, [&](int, int begin, int end) {
     for (int b = begin; b < end; b++) {
       if (is_dropped(b)) continue;
-      const double *const x1 = position + 3L * bond(b).first, *const x2 =
-                                                                  position + 3L * bond(b).second;
+      const double *const x1 = position.row(bond(b).first), *const x2 =
+                                                                position.row(bond(b).second);
       volumes_of_bonds[b] =
           volume_of(length(Vector3<double>{x1[0] - x2[0], x1[1] - x2[1], x1[2] - x2[2]}));
     }

@@ -20,10 +20,11 @@ struct SpringModel {
   std::vector<SpringCoeffs<double>> coeffs;    ///< by type; that of 0 is not read
 };
 
-/// Rows of three, and with forces of volumes one number, by place of a particle: the sums of r^d and of r0^d; else
-/// nullptr. `lengths`: at rest, by bond.
+/// By local index of a particle; with forces of volumes the sums of r^d and of r0^d, else nullptr. `lengths`: at rest, by
+/// bond.
 struct SpringParticles {
-  const double *position, *velocity, *lengths;
+  ParticleRows position, velocity;
+  const double *lengths;
   const double *volume, *volume_at_rest;
 };
 
@@ -37,7 +38,7 @@ class SpringBonds : public BondSums {
   void compute(const SpringParticles &particles, bool breaks, int threads);
 
   /// Writes the sum of r^d of owned particles.
-  void sum_volumes(const double *position, double *volumes, int threads);
+  void sum_volumes(const ParticleRows &position, double *volumes, int threads);
   /// Adds the sum of r0^d of these bonds, times `sign`, to owned particles.
   void add_volumes_at_rest(const std::vector<int> &of, const double *lengths, double sign,
                            double *volumes, int threads);

@@ -278,7 +278,7 @@ void ContactPipeline::load_shared(const ParticleView &arrays, const ContactStep 
     particles.read(order, arrays, of_thread(shared_owned, thread));
   else if (moving.is_moving())
     moving.move_shared(thread);
-  else    // they have not been moved: only the sums are those of the last step
+  else if (!moving.has_moved())    // only the sums are those of the last step
     particles.clear(range.begin, range.end);
 }
 

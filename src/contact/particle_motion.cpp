@@ -80,6 +80,7 @@ void ParticleMotion::complete()
   in_parallel(
       of.threads, of.threads, [this](int t) { move_shared(t); }, move_range);
   pending = false;
+  completed = true;
 }
 
 void ParticleMotion::move_shared(int thread)

@@ -33,7 +33,7 @@ class ParticleMotion {
   bool holds_state() const { return in_records; }
   /// Marks the records as not current, and does nothing else: the state must be in the arrays of
   /// LAMMPS, and prepare() has to be called again.
-  void leave() { in_records = prepared = pending = false; }
+  void leave() { in_records = prepared = pending = completed = false; }
 
   /// To be called before the first advance() after set_pairs(), with what concerns owned particles
   /// by local index: the numbers of the steps that move them, -1 where none does; and whose states
@@ -45,6 +45,8 @@ class ParticleMotion {
   void advance(const std::vector<RecordStep> &steps);
   /// It has not been completed.
   bool is_moving() const { return pending; }
+  /// It has, by complete() alone, and the sums of forces are as they begin.
+  bool has_moved() const { return completed; }
   /// Moves those that are still to be moved now, in a pass of its own.
   void complete();
   /// Of the last move, after compute() or complete(): the largest speed of an owned particle
@@ -73,7 +75,11 @@ class ParticleMotion {
   // ---- by the pipeline
   void make_room(int ranges) { speeds.assign(ranges, {}); }
   /// The forces of a step are there: the state stays in the records, or is in the arrays.
-  void end_step(bool stays) { in_records = stays; }
+  void end_step(bool stays)
+  {
+    in_records = stays;
+    completed = false;
+  }
   /// Those of a thread that others read as well; and those of a range, on the way.
   void move_shared(int thread);
   void move_on_the_way(int range, SlotChoice slots);
@@ -83,7 +89,8 @@ class ParticleMotion {
   void write_forces(int atom, const ParticleView &arrays) const;
 
   ContactPipeline &of;
-  bool in_records = false, prepared = false, pending = false, with_changes = false;
+  bool in_records = false, prepared = false, pending = false, completed = false;
+  bool with_changes = false;
   std::vector<RecordStep> steps_of_move;
   std::vector<ParticleRecords::Role> role;       ///< by slot; empty if all move
   std::vector<int> moved_at_once;                ///< slots that are sent

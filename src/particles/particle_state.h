@@ -17,6 +17,7 @@
 #include "base/lanes.h"
 #include "base/vector3.h"
 #include "particles/particle_records.h"
+#include "particles/particle_rows.h"
 
 #include <cstddef>
 
@@ -89,6 +90,17 @@ class ParticleState {
     in_records->settle_torque(slots[i]);
     return in_records->load[2 * slot(i) + 1].c;
   }
+  /// The same of all particles. Without torques angular velocities stay in the arrays.
+  ParticleRows positions() const
+  {
+    if (!in_records) return {arrays.x};
+    return {in_records->position.empty() ? nullptr : in_records->position[0].c, 4, slots};
+  }
+  ParticleRows velocities() const { return in_records ? motion_rows(0) : ParticleRows{arrays.v}; }
+  ParticleRows angular_velocities() const
+  {
+    return in_records && keeps_omega() ? motion_rows(1) : ParticleRows{arrays.omega};
+  }
   /// Angular velocities and torques are kept; without friction in the records they are not.
   bool keeps_omega() const { return !in_records || in_records->stride == 2; }
   /// Of its velocities, see ParticleRecords::change; nullptr if they are not kept.
@@ -154,6 +166,10 @@ class ParticleState {
     }
   }
 
+  /// Adds to the sums of one particle, by one thread for each; `torque`: nullptr where there are none. The fourth numbers
+  /// are not read.
+  TALUS_INLINE void add_at(int place, Vec4 force, const Vec4 *torque) const;
+
   // ---- by place, eight at a time: lane k is the particle at place(k)
 
   template <class Place>
@@ -180,6 +196,12 @@ class ParticleState {
 
  private:
   static Vector3<double> vector(const double *row) { return {row[0], row[1], row[2]}; }
+  ParticleRows motion_rows(int which) const
+  {
+    const auto &motion = in_records->motion;
+    return {motion.empty() ? nullptr : motion[which].c, 4 * static_cast<int>(in_records->stride),
+            slots};
+  }
   std::size_t slot(int i) const { return static_cast<std::size_t>(slots[i]); }
   double *row_at(int place) const
   {
@@ -246,6 +268,25 @@ TALUS_INLINE ParticleState::Motion ParticleState::motion_at(Place place, Vec8 ra
 /* The mark of settle_torque() is set together with the force: a record that is read whole right
    after one number of it was written is late. */
 
+TALUS_INLINE void ParticleState::add_at(int place, Vec4 force, const Vec4 *torque) const
+{
+  if (in_records) {
+    Record *const sums = &in_records->load[in_records->stride * place];
+    in_records->has_acted(place);
+    const Vec4 before = load4(sums[0]);
+    if (torque) store(sums[1], in_records->torque(place) + *torque);
+    const Vec4 mark = torque ? four(1.0, 1.0, 1.0, 1.0) : before;
+    store(sums[0], shuffle<0, 1, 2, 7>(before + force, mark));
+  } else {
+    const auto add = [place](Vec4 more, double *rows) {
+      double *const row = rows + 3L * place;
+      write_row(record_of(row, 0.0) + more, row);
+    };
+    add(force, arrays.f);
+    if (torque) add(*torque, arrays.torque);
+  }
+}
+
 template <class Place>
 TALUS_INLINE void ParticleState::add_at(Place place, int count, const EightRows &forces,
                                         const EightRows *torques) const
@@ -254,17 +295,8 @@ TALUS_INLINE void ParticleState::add_at(Place place, int count, const EightRows 
   to_rows(forces, force);
   if (torques) to_rows(*torques, torque);
   for (int k = 0; k < count; k++) {
-    const int at = place(k);
-    if (in_records) {
-      Record *const sums = &in_records->load[in_records->stride * at];
-      in_records->has_acted(at);
-      const Vec4 sum = load4(sums[0]) + load4(force[k]);
-      if (torques) store(sums[1], in_records->torque(at) + load4(torque[k]));
-      store(sums[0], torques ? shuffle<0, 1, 2, 4>(sum, four(1.0, 1.0, 1.0, 1.0)) : sum);
-    } else {
-      for (int d = 0; d < 3; d++) arrays.f[3L * at + d] += force[k].c[d];
-      for (int d = 0; d < 3 && torques; d++) arrays.torque[3L * at + d] += torque[k].c[d];
-    }
+    const Vec4 of_lane = torques ? load4(torque[k]) : Vec4{};
+    add_at(place(k), load4(force[k]), torques ? &of_lane : nullptr);
   }
 }
 

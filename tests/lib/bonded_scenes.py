@@ -19,6 +19,7 @@ atom_style {atoms}
 newton {newton}
 comm_modify vel yes cutoff 3.0
 special_bonds {special}
+{grid}
 """
 SCENE = HEAD + """
 read_data grains
@@ -55,6 +56,7 @@ fix floor all wall/gran hooke/history 200.0 NULL 5.0 NULL 0.5 1 zplane -1.0 NULL
 TALUS = ["-sf", "talus"]
 NEW = int(os.environ["TALUS_LAMMPS_VERSION"]) >= 20260000
 ACCELERATED = r"(?m)^  {} +accelerated$"
+RECORDS = r"steps without output +in the records"
 
 
 class BondedScenes:
@@ -62,6 +64,7 @@ class BondedScenes:
     4 Feb 2025 lack, and TOLD of them; and ERROR, relative to stock while bonds last. WORDS: those of all runs without a `frame`;
     UNTIL_BROKEN: steps after which many of the brittle ones are."""
 
+    MOVER = "nve/bpm/sphere"
     WORDS = ""
     UNTIL_BROKEN = 80
 
@@ -76,7 +79,7 @@ class BondedScenes:
         """With these options; its data file is in the folder then."""
         settings = dict(atoms="bpm/sphere", move="nve/bpm/sphere", boundary="s s m", newton="on off", special="lj 0 1 1 coul 1 1 1",
                         bond=self.BOND, words="", coeffs=f"bond_coeff * {self.WHOLE}", pair=PAIR, every=50, more="",
-                        commands="run 200", again="")
+                        commands="run 200", again="", grid="")
         settings.update(options)
         if settings["bond"] == self.BOND and "frame" not in settings["words"]:
             settings["words"] += " " + self.WORDS
@@ -149,6 +152,47 @@ class BondedScenes:
                 self.assertEqual(sorted(self.broken(self.folder)), broken)
                 for a, b in zip(reference, frames):
                     self.assert_same_bits(a, b, a.columns)
+
+    def test_steps_in_the_records(self):
+        """The bits of a run through the arrays of LAMMPS, also of what bonds that break store; and of a run that goes on."""
+        for boundary in "s s m", "p p m":
+            self.in_the_records(boundary=boundary)
+        self.in_the_records(commands="run 70\nrun 30 pre no\nrun 200")
+
+    def in_the_records(self, ways=((1, 1), (2, 1), (3, 1), (1, 2), (2, 2)), style="", **more):
+        """At steps with output only is anything shown; borders of ranks cut bonds."""
+        options = self.breaking(**{"commands": "run 300", **more})
+        # where particles are wrapped they are rounded: lists have to be made in the same steps
+        lists = "neigh_modify every 5 delay 0 check no\n" if options.get("boundary", "s").startswith("p") else ""
+        commands = lists + options["commands"]
+        options.update(grid="processors * * 1", words="store/local broken 50 time id1 id2 x y z " + more.get("words", ""), every=100,
+                       more="dump b all local 50 breaks f_broken[*]\ndump_modify b format float %.17g\n" + more.get("more", ""))
+        reference = self.simulate(TALUS, **{**options, "commands": f"run_style verlet/stock\n{commands}"})
+        self.assertNotRegex(self.log, RECORDS)
+
+        def rows():
+            return sorted(tuple(row) for frame in read_local(os.path.join(self.folder, "breaks")) for row in frame.rows)
+        broken = rows()
+        self.assertGreater(len(broken), 20)
+        for np, threads in ways:
+            frames = self.simulate(TALUS, np=np, threads=threads, **{**options, "commands": f"{style}\n{commands}"})
+            self.assertRegex(self.log, RECORDS)
+            self.assertEqual(rows(), broken)
+            self.assertEqual(len(frames), len(reference))
+            for a, b in zip(reference, frames):
+                self.assert_same_bits(a, b, a.columns)
+
+    def test_records_with_others(self):
+        """Spheres that have a fix of their own, are frozen or in clumps; contacts of bonded spheres; a fix of LAMMPS on some."""
+        parts = "group some id <= 5\ngroup rest subtract all some\n"
+        self.in_the_records(more=f"{parts}unfix move\nfix move rest {self.MOVER}\nfix other some {self.MOVER}\n"
+                                 "fix push rest addforce 0.05 0.0 0.0\n", ways=((1, 1), (2, 2)))
+        self.in_the_records(more=f"{parts}velocity some set 0 0 0\nfix still some freeze\n", ways=((1, 2), (2, 1)))
+        self.in_the_records(more=f"{parts}set atom 1*3 mol 1\nset atom 4*5 mol 2\nunfix move\nfix move rest {self.MOVER}\n"
+                                 "fix clumps some rigid/small molecule\n", ways=((1, 1), (2, 2)))
+        overlap = "run_style verlet/proxy overlap yes"
+        self.in_the_records(words="overlay/pair yes", special="lj 1 1 1 coul 1 1 1", style=overlap, boundary="p p m",
+                            ways=((2, 1), (3, 1), (2, 2)))
 
     def test_restart_files(self):
         self.read_each_others()

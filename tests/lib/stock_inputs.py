@@ -203,7 +203,7 @@ fix 2 wall/gran/region            accelerated
 fix 3 gravity                     accelerated
 fix 5 nve/bpm/sphere              accelerated
 run verlet                        accelerated
-steps without output              through the arrays of LAMMPS: there are bonds or long-range forces
+steps without output              in the records
 """, steps=5000, every=1000, long_steps=20000, bench_steps=10000,
                # angles come from a cosine: those of a new bond are up to 2e-8 in place of 0 in its second step, which damping by rates
                # of angles turns into motion; without damping of twist and bending 4e-9 is left of it

@@ -1,5 +1,5 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
-"""Bonds of bond_style bpm/rotational drawn at random: between which grains, how strong, made how."""
+"""Bonds of bond_style bpm/rotational and bpm/spring drawn at random: between which grains, how strong, made how."""
 
 import itertools
 import math
@@ -9,6 +9,7 @@ from laws import FORCE, STIFFNESS, TORQUE, some
 from quantities import length, line, number
 from scene import BOND_TYPES
 
+BEAMS, SPRINGS, VOLUMES = "bond_style bpm/rotational", "bond_style bpm/spring", "volume/factor"
 FAR = 1.3      # of the centers of two that may have a bond
 MORE = line("bond/types", BOND_TYPES, "extra/bond/per/atom 20 extra/special/per/atom 60")    # of create_box
 DAMPING, OF_TWIST, OF_ROLL = (0, 1, -1), (2, 1, -1), (1, 1, -1)    # force over velocity, torque over angular velocity; by length
@@ -28,8 +29,19 @@ def near(scene):
             if apart(a.place.values, b.place.values) < FAR]
 
 
-def coefficients(rng, bond_type, style=()):
+def style_of(scene):
+    """Words of bond_style."""
+    words, = [words for words in scene.once if words[0] in (BEAMS, SPRINGS)]
+    return words
+
+
+def coefficients(rng, bond_type, style):
     """Line of bond_coeff for bonds of length 1 or so and these words of bond_style."""
+    if style[0] == SPRINGS:
+        stiffness = some(rng, 2e3, 1e4, *((1, 1, -2) if "normalize" in style else STIFFNESS))
+        limit = "1e9" if rng.random() < 0.2 else f"{0.01 * 50**rng.random():.4g}"
+        damping = some(rng, 0, 20, *DAMPING) if rng.random() < 0.7 else "0"
+        return line("bond_coeff", bond_type, stiffness, limit, damping, some(rng, 100, 1e3, *FORCE) if VOLUMES in style else ())
     turning = (OF_TWIST, OF_TWIST if "derivative" in style else OF_ROLL) if FRAMES else (OF_ROLL, OF_TWIST)
     stiffness = (1, 1, -2) if "normalize" in style else STIFFNESS
 
@@ -45,13 +57,16 @@ def coefficients(rng, bond_type, style=()):
 
 def style(rng):
     """Words of bond_style."""
+    name = rng.choice((BEAMS, BEAMS, SPRINGS))
     words = rng.choice(("break no smooth no", "", "", "smooth no", "smooth yes")).split()
     for likely, more in (0.3, "normalize yes"), (0.25, "overlay/pair yes"), (0.3, "store/local broken 1 time id1 id2"):
         if rng.random() < likely:
             words += more.split()
-    if FRAMES:
+    if name == SPRINGS and rng.random() < 0.3:
+        words += [VOLUMES, "yes"]
+    if FRAMES and name == BEAMS:
         words = ["frame", rng.choice(("particle", "average")), "damping", rng.choice(("dem", "derivative")), *words]
-    return line("bond_style bpm/rotational", words)
+    return line(name, words)
 
 
 def bonded(rng, scene):

@@ -219,7 +219,7 @@ def bonds_gone(rng, scene):
 def other_bonds(rng, scene):
     if "bonded" not in scene.traits:
         return []
-    return [bonds.coefficients(rng, rng.randint(1, 2))]
+    return [bonds.coefficients(rng, rng.randint(1, 2), bonds.style_of(scene))]
 
 
 COMMANDS = (delete, create, pour, body_gone, faster, displace, another_step, another_law, another_box, body_more, drag, partner, settings,

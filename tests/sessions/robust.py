@@ -55,6 +55,7 @@ OF_BONDS = """create_bonds single/bond 1 1 2|create_bonds single/bond 2 1 3;run 
 special_bonds lj 0 1 1 coul 0 1 1;create_bonds many all all 1 0 1.0;special_bonds lj 0 1 1 coul 1 1 1|bond_coeff 1 1e3 1e3 50 50 9 9 9 9 0 0 0 0
 delete_bonds all bond 1 remove|delete_bonds some multi remove special|delete_bonds all multi|delete_bonds some bond 2 any
 delete_atoms group some bond yes|delete_atoms group some bond yes compress no|bond_style none|BONDS|special_bonds lj 1 1 1 coul 1 1 1
+bond_style bpm/spring;bond_coeff * 5e3 0.1 3|bond_style bpm/spring volume/factor yes;bond_coeff * 5e3 0.1 3 100
 special_bonds lj 0 0 0|bond_style bpm/rotational overlay/pair yes|fix move all nve/bpm/sphere|unfix step;fix step all nve/bpm/sphere
 bond_style hybrid bpm/rotational harmonic|set group some quat/random 5|set group some bond 2|compute ties all nbond/atom;dump ties all custom 2 ties id c_ties
 compute part all fragment/atom single yes;dump part all custom 3 part id c_part|compute long all bond/local dist engpot force

@@ -97,6 +97,8 @@ def outputs(rng, plan):
 def neighbors(rng, plan):
     skins = "neighbor 0.02 bin", "neighbor 0.2 bin", "neighbor 0.5 bin", "neighbor 0.3 nsq", "neigh_modify every 1 delay 0 check no"
     seldom = "neigh_modify every 3 delay 0 check no", "neigh_modify delay 2 every 2"
+    if "bonded" in plan.scene.traits:    # bridges ask for more where lists are those of LAMMPS
+        skins = skins[1:]
     none = any(words.startswith("neighbor 0.0 ") for words in plan.scene.physical())
     plan.before_run.append(rng.choice(skins if none else skins + seldom))
 

@@ -7,7 +7,7 @@ contacts where bonds have broken, the same bits on any ranks and threads, and re
 import os
 import unittest
 
-from bonded_scenes import NEW, TALUS, BondedScenes
+from bonded_scenes import NEW, OUTPUT, RECORDS, SCENE, TALUS, BondedScenes
 from talus_testing import SceneCase, read_local, thermo
 
 # an atom style with a topology that the script does not use
@@ -52,7 +52,7 @@ class SuffixBonds(BondedScenes, SceneCase):
         self.compare(1e-6, commands="run 2", every=1)
         self.assert_accelerated("pair gran/hooke/history", "bond bpm/rotational", "fix move nve/bpm/sphere",
                                 "fix floor wall/gran", "fix weight gravity")
-        self.assertIn("through the arrays of LAMMPS: there are bonds", self.log)
+        self.assertRegex(self.log, RECORDS)
 
     def test_styles_without_forces(self):
         """Bonds and angles of style zero leave steps in the records, with the bits of an atom style without them."""
@@ -85,6 +85,12 @@ class SuffixBonds(BondedScenes, SceneCase):
                     words = f"frame {frame} damping {damping}" if NEW else ""
                     self.compare(2e-6, words=words, commands="run 20", every=1)
                     self.assert_accelerated("bond bpm/rotational")
+
+    def test_contacts_without_torques(self):
+        """Their records have no angular velocities, which beams read."""
+        law = "hooke 200.0 5.0"
+        self.simulate(TALUS, pair="gran/penalty", text=SCENE.replace("pair_coeff * *", f"pair_coeff * * {law}") + OUTPUT, commands="run 5")
+        self.assertIn("through the arrays of LAMMPS: bonds: contacts have no torques", self.log)
 
     def test_agglomerate(self):
         """The example: what breaks is what is missing, and it falls into parts."""

@@ -8,7 +8,7 @@ import os
 import unittest
 
 from bonded_grains import crystal
-from bonded_scenes import NEW, TALUS, BondedScenes
+from bonded_scenes import NEW, OUTPUT, RECORDS, SCENE, TALUS, BondedScenes
 from talus_testing import SceneCase, thermo
 
 # four bonded spheres
@@ -71,7 +71,7 @@ class SuffixSprings(BondedScenes, SceneCase):
         self.compare(1e-13, commands="run 2", every=1)
         self.assert_accelerated("pair gran/hooke/history", "bond bpm/spring", "fix move nve/bpm/sphere",
                                 "fix floor wall/gran", "fix weight gravity")
-        self.assertIn("through the arrays of LAMMPS: there are bonds", self.log)
+        self.assertRegex(self.log, RECORDS)
 
     def test_all_words(self):
         pulled = dict(coeffs="bond_coeff * 30.0 0.2 0.3")
@@ -126,6 +126,15 @@ class SuffixSprings(BondedScenes, SceneCase):
         self.compare(self.ERROR, np=2, **options)
         self.assert_accelerated("bond bpm/spring", "fix move nve/sphere")
         self.assertGreater(len(self.spheres), 0)
+
+    def test_order_2_in_the_records(self):
+        """Where bonds have broken a rank takes its pairs again, and ghosts have the changes of velocities of their owners."""
+        law = "hooke 200.0 5.0 tangential multistep NULL NULL 0.5 slider midpoint limit_damping"
+        more = f"unfix floor\nfix floor all large/body plane 0 0 -1 0 0 1 contact {law}\nunfix move\nunfix weight\n" \
+               "fix move all nve/sphere/symplectic order 2 gravity 0.1 vector 0 0 -1\n"
+        for boundary in "s s m", "p p m":
+            self.in_the_records(atoms="hybrid sphere bond", move="nve/sphere", pair="gran/penalty", more=more, boundary=boundary,
+                                text=SCENE.replace("pair_coeff * *", f"pair_coeff * * {law}") + OUTPUT, ways=((1, 1), (2, 1), (3, 2)))
 
     def test_strain_of_zero(self):
         for np in 1, 2:

@@ -284,14 +284,17 @@ struct Agglomerate {
     all.set_model(model);
     all.set_bonds(bonds, count, tag.data());
     std::vector<double> history_now = history, f(3 * count, 0.5), t(3 * count, -0.25);
-    const BondedParticles particles{x.data(),           v.data(), omega.data(), turn.data(),
-                                    history_now.data(), stride,   1.0};
+    const BondedParticles particles{
+        {x.data()}, {v.data()}, {omega.data()}, turn.data(), history_now.data(), stride, 1.0};
     all.compute(particles, dt, threads);
     if (drop >= 0) {
       all.drop(drop);
       all.compute(particles, dt, threads);
     }
-    all.add_to(f.data(), t.data(), threads);
+    ParticleView sums{};
+    sums.f = f.data();
+    sums.torque = t.data();
+    all.add_to({count, sums, nullptr}, threads);
     f.insert(f.end(), t.begin(), t.end());
     return f;
   }
@@ -358,8 +361,13 @@ TEST(RotationalBonds, BreakAtTheirLimit)
     if (factor > 0.0) model.coeffs[2].limit.normal = 1e-12;
     all.set_model(model);
     all.set_bonds(ball.bonds, Agglomerate::count, ball.tag.data());
-    all.compute({ball.x.data(), ball.v.data(), ball.omega.data(), ball.turn.data(),
-                 ball.history.data(), Agglomerate::stride, 1.0},
+    all.compute({{ball.x.data()},
+                 {ball.v.data()},
+                 {ball.omega.data()},
+                 ball.turn.data(),
+                 ball.history.data(),
+                 Agglomerate::stride,
+                 1.0},
                 dt, 2);
     std::vector<int> expected, broken;
     all.for_each_broken([&](int b) { broken.push_back(b); });

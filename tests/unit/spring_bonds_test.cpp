@@ -90,6 +90,13 @@ SpringModel model_of(bool smooth, bool per_length, int dimension = 3)
   return {per_length, smooth, dimension, {{}, coeffs, {5.0, 0.25, 0.1, 0.2}}};
 }
 
+void add(const SpringBonds &all, std::vector<double> &forces, int threads)
+{
+  ParticleView sums{};
+  sums.f = forces.data();
+  all.add_to({Net::count, sums, nullptr}, threads);
+}
+
 struct Found {
   std::vector<double> forces, volumes;
   std::vector<int> broken;
@@ -102,13 +109,13 @@ Found computed(const Net &net, const SpringModel &model, bool breaks, int thread
   all.set_bonds(net.bonds, Net::count, net.tag.data());
   if (dropped >= 0) all.drop(dropped);
   Found found{std::vector<double>(3 * Net::count, 0.5), std::vector<double>(Net::count), {}};
-  all.sum_volumes(net.x.data(), found.volumes.data(), threads);
+  all.sum_volumes({net.x.data()}, found.volumes.data(), threads);
   const std::vector<double> at_rest(Net::count, 10.0);
   all.compute(
-      {net.x.data(), net.v.data(), net.lengths.data(), found.volumes.data(), at_rest.data()},
+      {{net.x.data()}, {net.v.data()}, net.lengths.data(), found.volumes.data(), at_rest.data()},
       breaks, threads);
   all.for_each_broken([&](int b) { found.broken.push_back(b); });
-  all.add_to(found.forces.data(), nullptr, threads);
+  add(all, found.forces, threads);
   return found;
 }
 
@@ -234,10 +241,11 @@ TEST(SpringBonds, VolumesGiveNoForceWhereAllIsStretchedAlike)
       each.push_back(static_cast<int>(lengths.size()));
       lengths.push_back(length(Net::apart(net.x, b)) / 1.1);
     }
-    all.sum_volumes(net.x.data(), now.data(), 1);
+    all.sum_volumes({net.x.data()}, now.data(), 1);
     all.add_volumes_at_rest(each, lengths.data(), 1.0, at_rest.data(), 2);
-    all.compute({net.x.data(), net.v.data(), lengths.data(), now.data(), at_rest.data()}, false, 1);
-    all.add_to(f.data(), nullptr, 1);
+    all.compute({{net.x.data()}, {net.v.data()}, lengths.data(), now.data(), at_rest.data()}, false,
+                1);
+    add(all, f, 1);
     for (const double number : f) EXPECT_NEAR(number, 0.0, 1e-14);
     EXPECT_NEAR(now[0] / at_rest[0], std::pow(1.1, dimension), 1e-13);
     all.add_volumes_at_rest(each, lengths.data(), -1.0, at_rest.data(), 1);

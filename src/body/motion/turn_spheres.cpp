@@ -15,24 +15,18 @@ namespace {
 /// Particles begin ... begin+count-1; the lanes of others have those of the first one.
 void turn_eight(const TurningSpheres &spheres, int begin, int count, double dt)
 {
-  alignas(64) double numbers[7][lanes];
-  const auto place = [=](int k) { return begin + (k < count ? k : 0L); };
-  for (int k = 0; k < lanes; k++) {
-    const double *const omega = spheres.omega + 3 * place(k);
-    const double *const turn = spheres.orientation + 4 * place(k);
-    for (int d = 0; d < 3; d++) numbers[d][k] = omega[d];
-    for (int d = 0; d < 4; d++) numbers[3 + d][k] = turn[d];
-  }
-  const auto lane = [&](int n) { return load8(numbers[n]); };
-  const Quaternion<Vec8> turned =
-      extrapolated_turn(Quaternion<Vec8>{lane(3), lane(4), lane(5), lane(6)},
-                        Vector3<Vec8>{lane(0), lane(1), lane(2)}, dt);
-  const Vec8 found[] = {turned.w, turned.x, turned.y, turned.z};
-  for (int d = 0; d < 4; d++) store(numbers[d], found[d]);
-  for (int k = 0; k < count; k++) {
-    if (!(spheres.mask[place(k)] & spheres.group)) continue;
-    for (int d = 0; d < 4; d++) spheres.orientation[4 * place(k) + d] = numbers[d][k];
-  }
+  const auto place = [=](int k) { return begin + (k < count ? k : 0); };
+  const auto turn = [&](int k) { return spheres.orientation + 4L * place(k); };
+  const EightRows omega = lanes_of([&](int k) { return spheres.omega.at(place(k)); });
+  const EightRows before = lanes_of([&](int k) { return Memory<Vec4>::load_anywhere(turn(k)); });
+  const Quaternion<Vec8> turned = extrapolated_turn(
+      Quaternion<Vec8>{before.number[0], before.number[1], before.number[2], before.number[3]},
+      Vector3<Vec8>{omega.number[0], omega.number[1], omega.number[2]}, dt);
+  alignas(32) double after[lanes][4];
+  to_rows(EightRows{turned.w, turned.x, turned.y, turned.z}, after);
+  for (int k = 0; k < count; k++)
+    if (spheres.mask[place(k)] & spheres.group)
+      Memory<Vec4>::store_anywhere(turn(k), load4(after[k]));
 }
 
 }    // namespace

@@ -5,14 +5,17 @@
 #ifndef TALUS_BODY_MOTION_TURN_SPHERES_H
 #define TALUS_BODY_MOTION_TURN_SPHERES_H
 
+#include "particles/particle_rows.h"
+
 namespace Talus {
 
-/// Particles 0 ... count-1 with one of the bits `group` in `mask`; rows of three (omega, in space) and four (w, x, y, z).
+/// Particles 0 ... count-1 with one of the bits `group` in `mask`; angular velocities in space, orientations in rows of
+/// four (w, x, y, z).
 struct TurningSpheres {
   int count;
   const int *mask;
   int group;
-  const double *omega;
+  ParticleRows omega;
   double *orientation;
 };
 

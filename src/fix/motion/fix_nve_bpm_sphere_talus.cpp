@@ -24,16 +24,14 @@ std::string FixNVEBPMSphereTalus::reason_of_words() const
   return "";
 }
 
-std::string FixNVEBPMSphereTalus::needs_arrays()
-{
-  return reason_for_stock().empty() ? "orientations are in the arrays" : reason_for_stock();
-}
+/* Orientations are in the arrays wherever particles are. */
 
-void FixNVEBPMSphereTalus::initial_integrate(int vflag)
+void FixNVEBPMSphereTalus::turn_particles() const
 {
-  SphereVerlet::initial_integrate(vflag);
   const int n = igroup == atom->firstgroup ? atom->nfirst : atom->nlocal;
-  if (n == 0 || !reason_for_stock().empty()) return;
-  Talus::turn_spheres({n, atom->mask, groupbit, atom->omega[0], atom->quat[0]}, update->dt,
-                      comm->nthreads);
+  if (n == 0) return;
+  system->step().complete_move();
+  Talus::turn_spheres(
+      {n, atom->mask, groupbit, system->step().particles().angular_velocities(), atom->quat[0]},
+      update->dt, comm->nthreads);
 }

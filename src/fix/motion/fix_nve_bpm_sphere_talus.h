@@ -5,7 +5,7 @@
 
      q += dt omega q/2 by Richardson's extrapolation, with the omega of the half step
 
-   Orientations live in the arrays of LAMMPS, and so do particles in every step. Stock with `update dipole`.
+   Stock with `update dipole`.
 ------------------------------------------------------------------------- */
 
 #ifdef FIX_CLASS
@@ -26,8 +26,8 @@ namespace LAMMPS_NS {
 class FixNVEBPMSphereTalus : public SphereVerlet<FixNVEBPMSphere> {
  public:
   FixNVEBPMSphereTalus(class LAMMPS *, int, char **);
-  void initial_integrate(int) override;
-  std::string needs_arrays() override;
+  std::string needs_arrays() override { return reason_for_stock(); }
+  void turn_particles() const override;
 
  private:
   std::string reason_of_words() const override;

@@ -68,6 +68,8 @@ template <class Base> class SphereVerlet : public Base, public Talus::SystemFix 
   /// "", or what of the words of the fix is done by LAMMPS only.
   virtual std::string reason_of_words() const = 0;
 
+  std::shared_ptr<Talus::GranularSystem> system;
+
  private:
   std::string find_reason() const
   {
@@ -87,7 +89,6 @@ template <class Base> class SphereVerlet : public Base, public Talus::SystemFix 
     return step;
   }
 
-  std::shared_ptr<Talus::GranularSystem> system;
   const char *plain;
   std::string reason = "no run yet";    // for the methods of LAMMPS
 };

@@ -2,15 +2,9 @@
 
 #include "system/contacts/bond_account.h"
 
-#include "atom.h"
 #include "bond.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <numeric>
-
-using LAMMPS_NS::Atom;
 
 namespace Talus {
 
@@ -19,32 +13,39 @@ BondAccount *BondAccount::of(LAMMPS_NS::Bond *bond)
   return dynamic_cast<BondAccount *>(bond);
 }
 
-double BondAccount::half_of_work(const Atom &atom) const
+double BondAccount::half_of_work(const ParticleState &particles) const
 {
-  double power = std::inner_product(forces.begin(), forces.end(), atom.v[0], 0.0);
-  if (!torques.empty())
-    power = std::inner_product(torques.begin(), torques.end(), atom.omega[0], power);
+  double power = 0.0;
+  const auto add = [&](const std::vector<double> &loads, const ParticleRows &rates) {
+    for (std::size_t n = 0; n < loads.size(); n += 3) {
+      const double *const rate = rates.row(static_cast<int>(n / 3));
+      for (int d = 0; d < 3; d++) power += loads[n + d] * rate[d];
+    }
+  };
+  add(forces, particles.velocities());
+  add(torques, particles.angular_velocities());
   return -0.5 * dt * power;
 }
 
-void BondAccount::complete_kick(const Atom &atom)
+void BondAccount::complete_kick(const ParticleState &particles)
 {
   if (forces.empty()) return;
-  settled += first_half + half_of_work(atom);
+  settled += first_half + half_of_work(particles);
   first_half = 0.0;
   forces.clear();
 }
 
-void BondAccount::begin_step(const Atom &atom, double of_dt, bool again, double counted)
+void BondAccount::begin_step(const ParticleState &particles, double of_dt, bool again,
+                             double counted)
 {
   half_is_done = again && counted > 0.0;
   if (again)
     settled += 2.0 * counted * first_half;
   else
-    complete_kick(atom);
+    complete_kick(particles);
   first_half = 0.0;
   dt = of_dt;
-  forces.assign(3 * static_cast<std::size_t>(atom.nlocal), 0.0);
+  forces.assign(3 * static_cast<std::size_t>(particles.owned()), 0.0);
   torques.clear();
 }
 
@@ -54,15 +55,9 @@ double *BondAccount::torque_of_bonds()
   return torques.data();
 }
 
-void BondAccount::end_step(const Atom &atom)
+void BondAccount::end_step(const ParticleState &particles)
 {
-  if (forces.empty()) return;
-  const auto add = [](const std::vector<double> &loads, double *to) {
-    std::transform(loads.begin(), loads.end(), to, to, std::plus<>());
-  };
-  add(forces, atom.f[0]);
-  if (!torques.empty()) add(torques, atom.torque[0]);
-  if (!half_is_done) first_half = half_of_work(atom);
+  if (!forces.empty() && !half_is_done) first_half = half_of_work(particles);
 }
 
 BondEnergies BondAccount::energies(double counted) const

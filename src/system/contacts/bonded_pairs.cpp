@@ -14,7 +14,9 @@ namespace Talus {
 void BondedPairs::follow_bonds()
 {
   now = present_bonds();
-  if (system.lists().number() == lists_used && !(now == used)) system.rebuild().renumber_pairs();
+  if (system.lists().number() != lists_used || now == used) return;
+  system.step().leave_records_for_pairs();
+  system.rebuild().renumber_pairs();
 }
 
 void BondedPairs::are_used()

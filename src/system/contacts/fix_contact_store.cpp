@@ -161,7 +161,8 @@ bigint FixContactStore::next_refresh(bigint step) const
 
 void FixContactStore::pre_exchange()
 {
-  if (Talus::BondAccount *bonds = Talus::BondAccount::of(force->bond)) bonds->complete_kick(*atom);
+  if (Talus::BondAccount *bonds = Talus::BondAccount::of(force->bond))
+    bonds->complete_kick(system->step().particles());
   store_histories(Occasion::REBUILD);
   if (!has_pairs()) return;
   system->rebuild().release_pairs();

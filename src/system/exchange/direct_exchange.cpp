@@ -80,9 +80,18 @@ ProxyPacker &DirectExchange::choose_packer(ProxyPacker *given)
   ProxyPacker *packer = given;
   if (!packer && own_packing) packer = &sphere_packer;
   if (!packer) packer = &atom_vec_packer;
-  if (!plan_has_orientations || !system->shapes()) return *packer;
-  with_orientations.set(*packer, system->shapes()->orientations());
+  double *const *const turned = orientations(given != nullptr);
+  if (!turned) return *packer;
+  with_orientations.set(*packer, turned);
   return with_orientations;
+}
+
+/* Of atom style bpm/sphere LAMMPS packs them itself, where it does: shapes are in no step in the records with these. */
+
+double *const *DirectExchange::orientations(bool in_records) const
+{
+  if (plan_has_orientations && system->shapes()) return system->shapes()->orientations();
+  return in_records && atom->quat_flag ? atom->quat : nullptr;
 }
 
 /* Of the states in the arrays of LAMMPS. */
@@ -120,7 +129,7 @@ int DirectExchange::largest_stride() const
 {
   constexpr int identity = 2;
   const int largest = std::max({sphere_packer.stride(), atom_vec_packer.stride(), identity});
-  return largest + (plan_has_orientations ? PackerWithRows::columns : 0);
+  return largest + (plan_has_orientations || atom->quat_flag ? PackerWithRows::columns : 0);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -114,6 +114,7 @@ class DirectExchange : protected LAMMPS_NS::Pointers {
 
  private:
   ProxyPacker &choose_packer(ProxyPacker *given);
+  double *const *orientations(bool in_records) const;
   int stride() const;
   void look_for_unsupported();
   int largest_stride() const;

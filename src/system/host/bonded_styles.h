@@ -6,6 +6,8 @@
 #ifndef TALUS_SYSTEM_HOST_BONDED_STYLES_H
 #define TALUS_SYSTEM_HOST_BONDED_STYLES_H
 
+#include "system/host/system_style.h"
+
 #include "force.h"
 
 #include <algorithm>
@@ -14,10 +16,17 @@
 
 namespace Talus {
 
-/// Of bonds, angles, dihedrals or impropers; at any time.
+/// Talus computes the forces of bonds; after init_style().
+inline bool computes_bonds(const LAMMPS_NS::Force &force)
+{
+  const SystemStyle *const bonds = SystemStyle::of(force.bond);
+  return bonds && bonds->reason_for_stock().empty();
+}
+
+/// Of bonds that Talus does not compute, angles, dihedrals or impropers; the same.
 inline bool has_bonded_forces(const LAMMPS_NS::Force &force)
 {
-  const char *const styles[] = {force.bond ? force.bond_style : nullptr,
+  const char *const styles[] = {force.bond && !computes_bonds(force) ? force.bond_style : nullptr,
                                 force.angle ? force.angle_style : nullptr,
                                 force.dihedral ? force.dihedral_style : nullptr,
                                 force.improper ? force.improper_style : nullptr};

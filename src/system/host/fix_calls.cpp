@@ -65,6 +65,8 @@ const FixCalls::Window *FixCalls::window_of(const Fix *fix)
       {"nve/noforce", both_kicks, V, X},
       {"planeforce", POST_FORCE, 0, F},
       {"setforce", POST_FORCE, X, F},
+      {"STORE/LOCAL", POST_FORCE, 0, 0},    // of bonds, which give it what it stores
+      {"UPDATE_SPECIAL_BONDS", PRE_FORCE, 0, 0},
       {"smd", POST_FORCE, X, F, true},
       {"spring", POST_FORCE, X, F, true},
       {"spring/self", POST_FORCE, X, F},
@@ -189,7 +191,7 @@ void FixCalls::find_members(Called &called) const
 
 void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 {
-  if (!quantities) return;
+  if (quantities == 0) return;
   const ParticleState particles = system.step().particles();
   const bool rotates = particles.keeps_omega();
   const auto exchange = [to_arrays](double *in_records, double *in_arrays) {

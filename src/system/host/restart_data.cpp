@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 
@@ -160,10 +161,22 @@ const double *find_particle_data(const Atom &atom, int i, int nth)
   return nullptr;
 }
 
+/// An instance, which may have ended, and another one may be where it was.
+struct Instance {
+  const LAMMPS *address;
+  double begin;
+
+  explicit Instance(const LAMMPS *lmp) : address(lmp), begin(lmp->initclock) {}
+  bool operator<(const Instance &o) const
+  {
+    return std::tie(address, begin) < std::tie(o.address, o.begin);
+  }
+};
+
 /// Commands, by instance, with data that are damaged, until it is told.
-std::map<LAMMPS *, std::string> &damaged()
+std::map<Instance, std::string> &damaged()
 {
-  static std::map<LAMMPS *, std::string> commands;
+  static std::map<Instance, std::string> commands;
   return commands;
 }
 
@@ -182,7 +195,7 @@ const double *particle_data(LAMMPS *lmp, const std::string &command, int i, int 
   const int size = found ? static_cast<int>(found[0]) - size_particle_head : -1;
   if (size >= 0 && is_same(found[1], digest_of(found[0], found + size_particle_head, size)))
     return found + size_particle_head;
-  damaged()[lmp] = command;
+  damaged()[Instance(lmp)] = command;
   return nullptr;
 }
 
@@ -207,18 +220,18 @@ const double *stock_particle_data(LAMMPS *lmp, const std::string &command, int i
                              is_same(found[size - 1], digest_of(found[0], found + 1, size - 2)));
   }
   if (intact) return found;
-  damaged()[lmp] = command;
+  damaged()[Instance(lmp)] = command;
   return nullptr;
 }
 
 void require_intact_particles(LAMMPS *lmp)
 {
-  const auto mine = damaged().find(lmp);
+  const auto mine = damaged().find(Instance(lmp));
   int from = mine == damaged().end() ? lmp->comm->nprocs : lmp->comm->me;
   MPI_Allreduce(MPI_IN_PLACE, &from, 1, MPI_INT, MPI_MIN, lmp->world);
   if (from == lmp->comm->nprocs) return;
   std::string command = mine == damaged().end() ? "" : mine->second;
-  damaged().erase(lmp);
+  damaged().erase(Instance(lmp));
   int size = static_cast<int>(command.size());
   MPI_Bcast(&size, 1, MPI_INT, from, lmp->world);
   command.resize(size);

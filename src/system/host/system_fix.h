@@ -60,6 +60,9 @@ class SystemFix {
   virtual bool places_particles() const { return false; }
   /// Of an integrator: whether it moves this particle of its group (local index).
   virtual bool moves_particle(int /*i*/) const { return true; }
+  /// Of an integrator: its particles have, or will have after Step::complete_move(), the velocities that move them in this
+  /// step. It turns what orientations they have. Called by Step::advance().
+  virtual void turn_particles() const {}
   /// Called when particles go back to the arrays of LAMMPS, before anything else reads or migrates
   /// them: what the fix itself keeps of them has to go back as well.
   virtual void leave_records() {}

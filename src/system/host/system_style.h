@@ -30,6 +30,8 @@ class SystemStyle {
   /// After init_style(), of run styles in setup() and run(): "" if Talus computes the contacts or bonds or makes the
   /// steps, else why the stock methods do.
   virtual std::string reason_for_stock() const = 0;
+  /// Of bond styles, at the start of a run: "" or why they need particles in the arrays of LAMMPS in this run.
+  virtual std::string needs_arrays() const { return ""; }
 
  protected:
   ~SystemStyle() = default;    // never deleted through this interface

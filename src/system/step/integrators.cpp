@@ -128,6 +128,11 @@ bool Integrators::give(const RecordStep &step)
   return given.size() == of_run.size();
 }
 
+void Integrators::turn_particles() const
+{
+  for (const Integrator &one : of_run) one.talus_fix->turn_particles();
+}
+
 void Integrators::leave_records()
 {
   for (const Integrator &one : of_run) one.talus_fix->leave_records();

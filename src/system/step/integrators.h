@@ -54,6 +54,7 @@ class Integrators : protected LAMMPS_NS::Pointers {
   const std::vector<RecordStep> &steps() const { return given; }
   /// Particles go back to the arrays of LAMMPS.
   void leave_records();
+  void turn_particles() const;
 
  private:
   struct Integrator {

@@ -95,6 +95,25 @@ void Step::show_particles()
   contacts().motion().show(view(), true, true);
 }
 
+void Step::show(const std::vector<int> &some)
+{
+  if (contacts().motion().holds_state()) contacts().motion().copy_states(some, view());
+}
+
+/* With the states of ghosts, if they have come to the records: others go on there. */
+
+void Step::leave_records_for_pairs()
+{
+  if (!contacts().motion().holds_state()) return;
+  proxies.finish();
+  contacts().motion().complete();
+  parts.movers.leave_records();
+  contacts().motion().show(view(), proxies.have_arrived_in_records(), false);
+  contacts().motion().leave();
+  proxies.forget_plan();
+  brought = true;
+}
+
 /* Clumps know themselves whether their step is complete, and so do the spheres that they place; the
    others end it in the arrays alone. */
 

@@ -5,6 +5,7 @@
 #include "system/contacts/fix_contact_store.h"
 #include "system/contacts/liquid_of_particles.h"
 #include "system/exchange/direct_exchange.h"
+#include "system/host/bonded_styles.h"
 #include "system/shapes/shaped_particles.h"
 #include "system/step/granular_system.h"
 #include "system/step/sphere_kicks.h"
@@ -12,8 +13,11 @@
 #include "atom.h"
 #include "comm.h"
 #include "fix.h"
+#include "force.h"
 #include "pair.h"
 #include "update.h"
+
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -41,6 +45,7 @@ void Step::advance(const Fix *integrator, const RecordStep &step, int frozen_gro
     ChangeRecord *const changes = talus_fix.keeps_changes() ? particles().changes() : nullptr;
     if (!talus_fix.places_particles())
       kick_spheres(lmp, integrator->igroup, step, frozen_groups, true, changes);
+    talus_fix.turn_particles();
     return;
   }
   if (!parts.movers.give(step)) return;
@@ -54,6 +59,7 @@ void Step::advance(const Fix *integrator, const RecordStep &step, int frozen_gro
   system.weights().begin_step(contacts());
   contacts().motion().advance(parts.movers.steps());
   largest_move.moves_in_records();
+  parts.movers.turn_particles();
 }
 
 bool Step::begin_forces(bigint step, bool tallied)
@@ -92,10 +98,11 @@ void Step::compute_contacts(const std::function<void(const TalliedContact &)> *t
       system.store()->order_of_histories();    // that of the run, since pairs were numbered
   step.lag = order == 2 ? parts.movers.lag() : 0.0;
   step.read = !contacts().motion().holds_state();
-  step.read_ghosts = !proxies.take_arrived_in_records();
+  const bool ghosts_in_arrays = !proxies.take_arrived_in_records();
+  step.read_ghosts = std::exchange(brought, false) || ghosts_in_arrays;
   step.deliver = !stays_in_records;
   step.add_to_arrays = stays_in_records && !alone;
-  find_changes(step, order);
+  find_changes(step, order, ghosts_in_arrays);
   if (contacts().conducts_heat()) step.temperature = atom->temperature;
   if (contacts().shares_liquid()) {    // changed by the last step
     comm->forward_comm(system.pair_style().get());
@@ -106,8 +113,9 @@ void Step::compute_contacts(const std::function<void(const TalliedContact &)> *t
   const std::function<void(int, int, int)> add_bodies = [this](int thread, int begin, int end) {
     system.bodies().add_to_slots(thread, begin, end);
   };
-  // contacts of shapes come before those of bodies, and after those of spheres; so do other pairs
-  if (!system.shapes() && alone && !step.read && !step.deliver && system.bodies().join_step())
+  // contacts of shapes come before those of bodies, and after those of spheres; so do other pairs and bonds
+  if (!system.shapes() && alone && !computes_bonds(*force) && !step.read && !step.deliver &&
+      system.bodies().join_step())
     step.add_other_forces = &add_bodies;
 
   compute_around_proxies(step);
@@ -127,7 +135,7 @@ bool Step::needs_changes(int order) const
 
 /* In the arrays of LAMMPS, of particles that are moved by fixes that do not keep them. */
 
-void Step::find_changes(ContactStep &step, int order)
+void Step::find_changes(ContactStep &step, int order, bool ghosts_in_arrays)
 {
   if (const bool needed = needs_changes(order); needed != contacts().motion().keeps_changes()) {
     contacts().motion().keep_changes(needed);
@@ -138,7 +146,7 @@ void Step::find_changes(ContactStep &step, int order)
   if (moved_in_arrays && !update->setupflag)
     system.store()->follow_velocities(parts.movers.groups_with_changes(), system.shapes());
   step.weight_of_changes = weight_of_changes(update->setupflag != 0);
-  if (step.read_ghosts && step.weight_of_changes != 0.0F) comm->forward_comm(system.store());
+  if (ghosts_in_arrays && step.weight_of_changes != 0.0F) comm->forward_comm(system.store());
 }
 
 /* The same steps on all ranks, and after a restart. */

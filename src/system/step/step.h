@@ -32,6 +32,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace LAMMPS_NS {
 class Fix;
@@ -104,6 +105,11 @@ class Step : protected LAMMPS_NS::Pointers {
   /// at the end of a step, or before forces other than those of pairs are added.
   void show_step();
   void show_particles();
+  /// Some of them, ghosts as well: their state.
+  void show(const std::vector<int> &some);
+  /// On the way of a step, when proxies are under way or have come: this rank is about to number pairs again, and has to
+  /// find all particles in the arrays.
+  void leave_records_for_pairs();
   /// New neighbor lists are due: the particles come back to the arrays of LAMMPS.
   void begin_rebuild();
   /// The same between two steps, or at the end of a run, however it ends: with the forces that will
@@ -119,7 +125,7 @@ class Step : protected LAMMPS_NS::Pointers {
   void complete_step();
   void complete_step_where(bool integrating, bool placing);
   bool needs_changes(int order) const;
-  void find_changes(ContactStep &step, int order);
+  void find_changes(ContactStep &step, int order, bool ghosts_in_arrays);
   float weight_of_changes(bool setting_up) const;
   void compute_around_proxies(ContactStep &step);
   void leave_records(bool with_forces);
@@ -129,6 +135,7 @@ class Step : protected LAMMPS_NS::Pointers {
   ProxyStates proxies;
   LargestMove largest_move;
   bool stays_in_records = false;    // after this step
+  bool brought = false;             // this rank alone has left the records in this step
   LAMMPS_NS::bigint shown = -1;     // last step that was
 };
 

@@ -79,6 +79,9 @@ std::string StepsInRecords::reason_of_scene(bool pairs_computed) const
   if (system.masses().unit() != 1.0)
     return "the unit of force is not that of mass times acceleration";
   if (has_bonded_forces(*force) || force->kspace) return "there are bonds or long-range forces";
+  if (const SystemStyle *const bonds = SystemStyle::of(force->bond))
+    if (std::string of_bonds = bonds->needs_arrays(); !of_bonds.empty())
+      return "bonds: " + of_bonds;
   if (atom->avec->size_forward != 3)
     return std::string("radii or more vary with atom style ") + atom->atom_style;
   if (!system.pair_style().is_alone() && !system.law_table().has_friction())
