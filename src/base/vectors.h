@@ -154,7 +154,8 @@ TALUS_INLINE Vec8 join(Vec4 low, Vec4 high)
 }
 TALUS_INLINE Vec4 low_half(Vec8 v)
 {
-  return (Vec4) _mm512_castpd512_pd256((__m512d) v);
+  // a cast is an extraction too, with a warning of a number that is not used
+  return (Vec4) _mm512_maskz_extractf64x4_pd(0xff, (__m512d) v, 0);
 }
 TALUS_INLINE Vec4 high_half(Vec8 v)
 {

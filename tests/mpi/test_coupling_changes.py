@@ -194,6 +194,18 @@ p.close()
 end()
 """
 
+DUMPS = HEAD + """
+p = new()
+p.advance(5)
+lmp.command("dump see all custom 2 seen id z")
+p.advance(6)
+lmp.command("undump see")
+lmp.command("dump see all custom 4 again id z")
+p.advance(7)
+p.close()
+end()
+"""
+
 
 class Changes(CoupledCase):
 
@@ -250,6 +262,15 @@ class Changes(CoupledCase):
                     for i, (first, second) in enumerate(zip(*impulses[:2])):
                         for one, two, apart in zip(first, second, (-1.0, 2.0, 0.0)):
                             self.assertLess(abs(one / (0.5 + 0.1 * i) - two / (1.0 + 0.1 * i) - 150 * 5e-4 * apart), 1e-12)
+
+    def test_dumps_between_calls(self):
+        """One that is new, and another one of the same name in its place."""
+        for np in 1, 2, 4:
+            self.drive(DUMPS, np=np, timeout=60)
+            for name, steps in ("seen", [6, 8, 10]), ("again", [12, 16]):
+                with self.subTest(ranks=np, dump=name):
+                    lines = self.read(name).splitlines()
+                    self.assertEqual([int(lines[n + 1]) for n, line in enumerate(lines) if line == "ITEM: TIMESTEP"], steps)
 
     def test_box_that_deforms(self):
         """In each window as in a run of its length: by a share of the length that it has when that begins."""
