@@ -1,9 +1,10 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// What bonds between particles store, and the work that they take from them: a base of bond styles of Talus. The work of a step is that of the kick which its forces give, force times the mean of the
-// velocities before and after it (and torques with angular velocities), as that of contacts (energy_account.h): half of
-// it is known when forces are computed, the other half when particles have moved, which is asked for at the next step, or
-// before particles change places in a rebuild.
+// What bonds between particles store, and the work that they take from them: a base of bond styles of Talus. The work of a
+// step is that of the kick which its forces give, force times the mean of the velocities before and after it (and torques
+// with angular velocities), as that of contacts (energy_account.h): half of it is known when forces are computed, the
+// other half when particles have moved, which is asked for at the next step, or before particles change places in a
+// rebuild.
 //
 // Energies are in units of the script, of this rank: its own particles, and half of bonds that another rank has as well.
 
