@@ -112,13 +112,21 @@ def differences(frame, other, tags):
 
 class WallRegions(SceneCase):
 
-    def run_scene(self, regions, style, law, check):
+    def script(self, regions, style, law, check):
         walls = ""
         for k, (_, commands) in enumerate(regions):
             walls += commands.replace("{k}", str(k))
             walls += f"group g{k} id {k * GRAINS + 1}:{(k + 1) * GRAINS}\nfix w{k} g{k} {style} {law} region w{k}\n"
-        self.run_lammps(SCENE.format(variables=VARIABLES, walls=walls, check=check))
+        return SCENE.format(variables=VARIABLES, walls=walls, check=check)
+
+    def run_scene(self, *of_script):
+        self.run_lammps(self.script(*of_script))
         return read_dump(self.path("dump"))
+
+    def refused(self, region, style, law, ranks):
+        script = self.script([("", region)], style, law, "delay 0 check yes")
+        result = self.run_lammps(script, np=ranks, expect_error=True, stay=False)    # one rank alone ends it
+        return result.log + result.output
 
     def assert_same(self, regions, law=HOOKE, check="delay 0 check yes"):
         """All in one run: LAMMPS has 32 groups."""
@@ -156,6 +164,23 @@ class WallRegions(SceneCase):
 
     def test_beyond_contact(self):
         self.assert_same([one for one in regions_of_shapes() if "moved and turned" in one[0]], law=COHESIVE)
+
+    def test_between_opposite_faces(self):
+        """More contacts than LAMMPS has room for: our variant must not write beyond it."""
+        slit, pill, corner = (f"region w0 {words}\n" for words in (
+            "block -29 -9 -29 -9 -20.3 -19.7", "cylinder z -20 -20 0.4 -20.3 -19.7", "block -20.4 0 -20.4 -19.6 -20.3 -19.7"))
+        grains = [Sphere(diameter=1.0, density=1.0, x=(-20.0, -20.0, -20.0 + 0.01 * k), v=(0, 0, 0), omega=(0, 0, 0))
+                  for k in range(3)]    # on the first rank, the one whose errors are in the log
+        write_sphere_data(self.path("grains"), ((-30, 40),) * 3, grains)
+        for region, law in (pill, HOOKE), (corner, HOOKE), (corner, HOOKE.replace("/history", "")), (pill, COHESIVE):
+            for style in "wall/gran/region", "wall/gran/region/talus":
+                for ranks in (1, 2, 3) if style.endswith("talus") else (1,):
+                    with self.subTest(region=region, law=law, style=style, ranks=ranks):
+                        said = self.refused(region, style, law, ranks)
+                        self.assertIn("Too many wallgran/region contacts for one particle", said)
+                        if style.endswith("talus"):
+                            self.assertRegex(said, r"fix wall/gran/region w0 has room for [23] with region 'w0'")
+        self.run_scene([("", slit)], "wall/gran/region/talus", HOOKE, "delay 0 check yes")
 
     def test_old_lists(self):
         """Grains and walls go further than the skin."""

@@ -41,6 +41,18 @@ void FixWallGranRegionTalus::are_listed()
   if (surface->is_dynamic()) surface->are_listed(wall.bounds_of_search());
 }
 
+void FixWallGranRegionTalus::post_force(int vflag)
+{
+  AcceleratedWall::post_force(vflag);
+  if (!surface || !surface->had_too_many_contacts()) return;
+  error->one(
+      FLERR,
+      "Too many wallgran/region contacts for one particle: fix wall/gran/region {} has room for "
+      "{} with region '{}'. A particle that fits between opposite faces needs fix large/body, "
+      "which takes the deepest {}",
+      id, region->tmax, idregion, LargeBodyShape::max_contacts);
+}
+
 void FixWallGranRegionTalus::write_restart(FILE *file)
 {
   if (domain->get_region_by_id(idregion) != region)

@@ -20,6 +20,7 @@ class FixWallGranRegionTalus : public Talus::AcceleratedWall<FixWallGranRegion> 
   {
   }
   void write_restart(FILE *file) override;
+  void post_force(int vflag) override;
 
  protected:
   bigint stock_size(const double *data) const override;

@@ -66,6 +66,7 @@ std::string RegionShape::refusal(const Region &region, bool moves)
 
 void RegionShape::place()
 {
+  too_many = false;
   if (!dynamic) return;
   region->prematch();
   region->set_velocity();
@@ -152,7 +153,8 @@ int RegionShape::contacts_beside(const Vector3<double> &at, double radius) const
 }
 
 /* As in LAMMPS, only particles on the inner side are looked at: others keep their histories. With a
-   simple region what has contacts is there, unless its center is on the surface. */
+   simple region what has contacts is there, unless its center is on the surface. A particle between
+   opposite faces has more contacts than there is room for. */
 
 int RegionShape::find_in_order(const Vector3<double> &center, double radius,
                                SurfaceContact *found) const
@@ -167,6 +169,10 @@ int RegionShape::find_in_order(const Vector3<double> &center, double radius,
   for (int k = 0; k < touched; k++) {
     const Region::Contact &c = region->contact[k];
     if (!(c.r < radius)) continue;
+    if (by_itself && count == region->tmax) {
+      too_many = true;
+      break;
+    }
     const double inverse = 1.0 / c.r;
     SurfaceContact &one = found[count++];
     one = {{c.delx * inverse, c.dely * inverse, c.delz * inverse}, radius - c.r, c.iwall};

@@ -49,6 +49,9 @@ class RegionShape : public LargeBodyShape {
   /// Particles within this box are listed; and how far a point of the surface has gone at most since.
   void are_listed(const Eigen::AlignedBox3d &box);
   double displacement() const;
+  /// A particle has touched it at more points than LAMMPS expects of it (tmax) since place(): those beyond
+  /// were left out, and the fix ends the run as the stock one does.
+  bool had_too_many_contacts() const { return too_many; }
 
   // LargeBodyShape
   bool touches(const Vector3<double> &center, double radius,
@@ -89,6 +92,7 @@ class RegionShape : public LargeBodyShape {
   std::vector<RegionPose> listed_poses;
   Eigen::AlignedBox3d listed_box;
   mutable std::vector<SurfaceContact> all_of_body;    // see max_contacts
+  mutable bool too_many = false;
 };
 
 }    // namespace Talus
