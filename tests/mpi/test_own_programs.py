@@ -32,6 +32,8 @@ class Programs(SceneCase):
 
     def setUp(self):
         self.folder = shutil.copytree(os.path.join(SOURCE, "examples", "partner"), self.path("partner"))
+        with open(os.path.join(self.folder, "partner.c"), "a") as file:    # as own programs will
+            file.write("#include <math.h>\ndouble way(double angle);\ndouble way(double angle) { return cos(angle); }\n")
 
     def make(self, command, env):
         subprocess.run(command, cwd=self.folder, env={**os.environ, **env}, check=True, stdout=subprocess.DEVNULL)
