@@ -17,10 +17,12 @@
 #include <dlfcn.h>
 #include <mpi.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 
 namespace {
 
@@ -93,6 +95,22 @@ void complain(bool first_rank, const std::string &text)
   std::fflush(stderr);
 }
 
+/* One rank may lack what another one has, and could not be told from here: it ends the run. Where all lack it
+   the first one does: it writes the log, it says so once, and some versions of mpiexec crash when two ranks
+   end the run at the same time. */
+
+void end_run(const HostLibrary &host, void *lmp, bool first_rank, const std::string &missing)
+{
+  if (!first_rank) std::this_thread::sleep_for(std::chrono::seconds(1));
+  host.error(lmp, error_on_one_rank,
+             ("Talus: this plugin was built for another processor than that of this machine, "
+              "which lacks the instructions " +
+              missing +
+              "; build it here with scripts/build, or for all machines with "
+              "scripts/build --portable")
+                 .c_str());
+}
+
 // For developers who know better, for instance when bisecting the host.
 bool check_disabled()
 {
@@ -144,17 +162,8 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
                     "host lacks; build LAMMPS with PKG_GRANULAR on, or this plugin for "
                     "this host with scripts/build --host");
 
-  // One rank may lack what another one has, and could not be told from here: it ends the run.
   const std::string missing = Talus::missing_instructions(Talus::needed_instructions);
-  if (!missing.empty())
-    return host.error(
-        lmp, error_on_one_rank,
-        ("Talus: this plugin was built for another processor than that of this machine, "
-         "which lacks the instructions " +
-         missing +
-         "; build it here with scripts/build, or for all machines with "
-         "scripts/build --portable")
-            .c_str());
+  if (!missing.empty()) return end_run(host, lmp, first_rank, missing);
 
   const std::string path = styles_path();
   void *styles = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -237,6 +237,7 @@ class Gate(PluginCase):
                 self.assertRegex(text, "ERROR[^:]*: Talus: this plugin was built for another processor than that of this machine, "
                                        "which lacks the instructions (avx, )?avx1024f; build it here with scripts/build, or for "
                                        "all machines with scripts/build --portable")
+                self.assertEqual(text.count("ERROR on proc"), 1)    # by the rank that writes the log
                 self.assertNotIn("\nREACHED", result.log)
 
     def test_half_of_the_plugin(self):
