@@ -6,6 +6,8 @@
 #include "fill/region_space.h"
 #include "system/host/command_words.h"
 #include "system/host/restart_data.h"
+#include "system/shapes/shaped_particles.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -81,15 +83,24 @@ void FixPourRate::init()
 {
   const RegionSpace space(lmp, "fix pour/rate", region_id);
   warned = false;
+  const ShapedParticles *const shapes = GranularSystem::of(lmp)->shapes();
+  shape_mass = shapes && shapes->is_shaped(type) ? shapes->table().of(type)->mass() : 0.0;
   if (is_over()) return;
   // also after runs without this fix, or with another step count
   if (next_reneighbor <= update->ntimestep || next_reneighbor > update->ntimestep + nevery)
     next_reneighbor = update->ntimestep + 1;
 }
 
+static double volume_of(double diameter)
+{
+  return 0.52359877559829887308 * diameter * diameter * diameter;
+}
+
+/* Of a particle with a shape the diameter is that of the sphere around it. */
+
 double FixPourRate::mass_of(double diameter) const
 {
-  return density * (0.52359877559829887308 * diameter * diameter * diameter);
+  return shape_mass > 0.0 ? shape_mass : density * volume_of(diameter);
 }
 
 void FixPourRate::pre_exchange()
@@ -108,16 +119,16 @@ void FixPourRate::pre_exchange()
 void FixPourRate::require_countable(const RegionSpace &space) const
 {
   constexpr double most = 1.0e7;
-  const double volume = std::min(due / density, space.volume_between_corners());
-  if (density * volume < most * mass_of(sizes.smallest())) return;
+  const double mean_density = shape_mass > 0.0 ? shape_mass / volume_of(sizes.smallest()) : density;
+  const double volume = std::min(due / mean_density, space.volume_between_corners());
+  if (volume < most * volume_of(sizes.smallest())) return;
   const double number = sizes.count_of(volume);
   if (number > most)
     error->all(FLERR,
-               "fix pour/rate {}: {:.3g} spheres are due at a time, a mass of {:.4g}: this is more "
-               "than this command is "
-               "made for, look for a wrong unit in the mass rate, the diameter or the density, or "
-               "take a smaller N",
-               id, number, density * volume);
+               "fix pour/rate {}: {:.3g} particles are due at a time, a mass of {:.4g}: this is "
+               "more than this command is made for, look for a wrong unit in the mass rate, the "
+               "diameter or the density, or take a smaller N",
+               id, number, mean_density * volume);
 }
 
 /* The same on all ranks: they know the same spheres and draw the same numbers. */

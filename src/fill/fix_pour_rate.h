@@ -1,8 +1,8 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// fix pour/rate: a stream of spheres into a region at a given mass rate. doc/filling.md is
-// the user's page. That its name begins with that of LAMMPS' fix pour tells pair styles that
-// particles will come, and to ask extract() how large they are.
+// fix pour/rate: a stream of spheres, or of particles with a shape, into a region at a given mass
+// rate. doc/filling.md is the user's page. That its name begins with that of LAMMPS' fix pour tells
+// pair styles that particles will come, and to ask extract() how large they are.
 
 #ifndef LMP_FIX_POUR_RATE_H
 #define LMP_FIX_POUR_RATE_H
@@ -51,6 +51,7 @@ class FixPourRate : public Fix {
   Talus::SizeDistribution sizes;
   int attempts = 100;
   double largest_radius = 0.0;
+  double shape_mass = 0.0;    // of a particle of the type, in this run; 0: they are spheres
 
   // the state, which restart files have; the same on all ranks
   Talus::RandomNumbers random{0};

@@ -67,6 +67,22 @@ thermo_style custom step atoms zhi
 """
 STREAM_IN = "fix in all pour/rate 200 1 mouth 100 diameter 1.0 density 1.0 seed 3 velocity 0 0 -3"
 
+TABLETS = head("si", "p p f") + """
+region box block 0 1 0 1 0 2
+create_box 1 box
+region top block 0 1 0.2 0.8 1.5 1.9
+pair_style gran/penalty
+pair_coeff * * hooke 1e6 100 tangential multistep NULL NULL 0.5
+fix fall all gravity/talus 9.81 vector 0 0 -1
+fix floor all large/body plane 0 0 0.01 0 0 1 contact hooke 1e6 100
+fix in all pour/rate 50 1 top 100.0 diameter 0.1 density 1 seed 77 velocity 0 0 -2{end}
+fix tablets all shape/gran type 1 ellipsoid 0.05 0.05 0.025 density 2500 orient random 7
+timestep 1e-4
+thermo_style custom step atoms f_in[1] f_in[2] f_in[3]
+thermo 100
+run 1000
+"""
+
 
 class Pour(SceneCase):
 
@@ -94,6 +110,24 @@ class Pour(SceneCase):
         self.assertTrue(0.05 <= min(diameters) and max(diameters) <= 0.1)
         for np in (2, 4):
             self.assert_same_bits(one, self.pour(np=np))
+
+    def test_shapes_have_their_own_mass(self):
+        """And not that of the spheres around them: the rate, what was made, and where it ends."""
+        mass = 2500 * 4 / 3 * math.pi * 0.05 * 0.05 * 0.025
+        frames = []
+        for np in 1, 2:
+            log = self.run_lammps(TABLETS.format(end="") + DUMP.format(name="state"), np=np).log
+            for row in thermo(log)[1:]:
+                self.assertAlmostEqual(row["f_in[1]"], mass * row["f_in[2]"], delta=1e-4 * mass * row["f_in[2]"])
+                self.assertAlmostEqual(row["f_in[1]"], 100.0 * 1e-4 * (row["Step"] + 49), delta=0.51 * mass + 100 * 50e-4)
+            frames += read_dump(self.path("state"))
+        self.assertGreater(len(frames[0].atoms), 10)
+        for found in frames[0].column("mass").values():
+            self.assertAlmostEqual(found, mass, delta=1e-12)
+        self.assert_same_bits(*frames)
+        log = self.run_lammps(TABLETS.format(end=" mass 4")).log
+        self.assertAlmostEqual(thermo(log)[-1]["f_in[1]"], 4.0, delta=mass)
+        self.assertEqual(thermo(log)[-1]["f_in[2]"], math.ceil(4.0 / mass))
 
     def test_spheres_as_they_are_made(self):
         dump = "dump made all custom 1 made id radius x y z vx vy vz\ndump_modify made format float %.17g first yes\n"
@@ -195,7 +229,7 @@ class Pour(SceneCase):
     def test_more_spheres_than_can_be_meant(self):
         for np in 1, 2:
             self.bed("run 10\n", "none", pour=STREAM_IN.replace("diameter 1.0", "diameter 1e-3"), np=np, expect_error=True)
-            self.assertRegex(" ".join(self.log.split()), r"fix pour/rate in: 1\.91e\+10 spheres are due at a time, a mass of 10: this is "
+            self.assertRegex(" ".join(self.log.split()), r"fix pour/rate in: 1\.91e\+10 particles are due at a time, a mass of 10: this is "
                              "more than this command is made for, look for a wrong unit in the mass rate, the diameter or "
                              "the density, or take a smaller N")
         # what is due and has no room is no reason
