@@ -9,7 +9,7 @@ import unittest
 
 from saved_scenes import CLUMP
 from talus_testing import SceneCase, head, max_difference, read_dump, thermo
-from tossed_clumps import write_clumps
+from tossed_clumps import FLAT_BOX, tossed_in_a_plane, write_clumps
 
 MOTION = "x y z vx vy vz omegax omegay omegaz".split()
 ALL = MOTION + "fx fy fz tqx tqy tqz".split()
@@ -222,6 +222,46 @@ fix roof all large/body plane 0 0 9  0 0 -1  contact hertz 20000 50 tangential m
             for a, b, c in molecules.values():
                 for pair in (a, b), (b, c), (a, c):
                     self.assertAlmostEqual(distance(first, *pair), distance(last, *pair), delta=1e-12)
+
+
+class ClumpsInAPlane(ClumpCase):
+
+    def setUp(self):
+        write_clumps(self.path("grains"), box=FLAT_BOX, toss=tossed_in_a_plane)
+
+    def simulate(self, move=TALUS, np=1, threads=1, every=100, before="", style=PROXY, group="all", **options):
+        def plane(y, up, law):
+            return f"large/body plane 0 {y} 0  0 {up} 0 contact {law}"
+        floor = f"fix floor all {WALL} yplane 0 15"
+        if "order 2" in move:
+            floor = f"fix floor all {plane(0, 1, LAW)}\nfix roof all {plane(15, -1, LAW)}"
+        return super().simulate(move.replace("0.2 0 -1", "0.2 -1 0"), np, threads, every,
+                                before=f"dimension 2\nboundary p f p\n{before}", floor=floor, gravity=None if "gravity" in move else
+                                GRAVITY.replace("0.2 0 -1", "0.2 -1 0"), style=f"fix flat {group} enforce2d\n{style}", **options)
+
+    def test_the_numbers_of_lammps(self):
+        ours, stock = self.simulate(), self.simulate(STOCK, style="")
+        for a, b in zip(ours, stock, strict=True):
+            self.assertLess(max_difference(a, b, MOTION), 1e-10)
+            self.assertLess(max_difference(a, b, ALL), 1e-8)
+        self.assertGreater(max_difference(ours[0], ours[-1], ["x"]), 0.3)
+
+    def test_same_bits(self):
+        """Eight at a time as one by one, on ranks and threads, with fix enforce2d for all and for some."""
+        for move, rest in (TALUS, {}), (SYMPLECTIC, {}), (SECOND, {"pair": OF_SECOND["pair"]}):
+            for group in "all", "clumps":
+                reference = {f.step: f for f in self.simulate(move, every=1, style="run_style verlet", expect=None, group=group, **rest)}
+                for np, threads, every, grid in ((1, 1, 7, ""), (1, 2, 100, ""), (2, 1, 100, "2 1 1"), (4, 1, 50, "2 2 1")):
+                    with self.subTest(move=move, group=group, ranks=np, threads=threads, every=every):
+                        for frame in self.simulate(move, np, threads, every, before=f"processors {grid}" if grid else "",
+                                                   group=group, **rest):
+                            self.assert_same_bits(frame, reference[frame.step])
+
+    def test_nothing_leaves_the_plane(self):
+        for move in TALUS, SYMPLECTIC:
+            frames = self.simulate(move)
+            for name in "z", "vz", "omegax", "omegay", "fz", "tqx", "tqy":
+                self.assertEqual({abs(x) for f in frames for x in f.column(name).values()}, {0.0}, name)
 
 
 MIXED = head(boundary="p p f") + """

@@ -5,8 +5,9 @@
 using namespace LAMMPS_NS;
 
 void ClumpLanes::make(const ClumpTable &table, const Talus::ParticleRecords &records,
-                      const int *slot_of_atom)
+                      const int *slot_of_atom, bool in_a_plane)
 {
+  flat = in_a_plane;
   groups.assign((table.size() + lanes - 1) / lanes, Group{});
   rows.clear();
   for (int g = 0; g < num_groups(); g++) {

@@ -38,9 +38,10 @@ class ClumpLanes {
   bool are_current() const { return current; }
   void forget() { current = false; }
 
-  // places of spheres, and room for the states of the clumps, to be set; slots are those of the records
-  void make(const ClumpTable &table, const Talus::ParticleRecords &records,
-            const int *slot_of_atom);
+  // places of spheres, and room for the states of the clumps, to be set; slots are those of the records;
+  // in a plane (two dimensions) nothing acts or moves along z
+  void make(const ClumpTable &table, const Talus::ParticleRecords &records, const int *slot_of_atom,
+            bool in_a_plane);
   void set(int clump, const Talus::ClumpState<double> &state);
   Talus::ClumpState<double> get(int clump) const;
   int num_groups() const { return static_cast<int>(groups.size()); }
@@ -121,7 +122,7 @@ class ClumpLanes {
     Vector place() const { return {at(0), at(1), at(2)}; }
   };
 
-  bool current = false;
+  bool current = false, flat = false;
   Talus::AlignedVector<Group> groups;
   Talus::AlignedVector<Row> rows;
 
@@ -161,6 +162,7 @@ class ClumpLanes {
       sum.torque = sum.torque +
                    (cross(state.axes.to_space(rows[r].place()), row_sum.force) + row_sum.torque);
     }
+    if (flat) sum.force.z = sum.torque.x = sum.torque.y = Vec8{};
     return sum;
   }
 
@@ -217,11 +219,12 @@ class ClumpLanes {
   {
     for (int r = group.first_row; r < group.end_row; r++) {
       const Row &row = rows[r];
-      const Vector place = row.place(), arm = s.axes.to_space(place), v = motion.velocity_at(place);
+      const Vector place = row.place(), arm = s.axes.to_space(place);
+      Vector v = motion.velocity_at(place);
       const int m = r - group.first_row;
-      const Vector x =
-          arm +
-          (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift_of) : s.position);
+      Vector x = arm + (row.wrapped ? s.position - shifts(table, group, m, row.wrapped, shift_of)
+                                    : s.position);
+      if (flat) x.z = v.z = Vec8{};
       Talus::Record x_row[lanes], v_row[lanes], w_row[lanes];
       Talus::to_rows({x.x, x.y, x.z, row.at(Row::RADIUS)}, x_row);
       Talus::to_rows({v.x, v.y, v.z, row.at(Row::INVERSE_MASS)}, v_row);

@@ -176,12 +176,12 @@ Vector FixRigidSmallTalus::shift_of(const ClumpSphere &s) const
 
 bool FixRigidSmallTalus::moves_in_lanes() const
 {
-  return particles.records() && !evflag && domain->dimension == 3;
+  return particles.records() && !evflag;
 }
 
 void FixRigidSmallTalus::fill_lanes()
 {
-  lanes.make(table, *particles.records(), particles.order());
+  lanes.make(table, *particles.records(), particles.order(), domain->dimension == 2);
   for (int c = 0; c < table.size(); c++) lanes.set(c, state_of(body[table.body[c]]));
 }
 

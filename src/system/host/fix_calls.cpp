@@ -32,6 +32,14 @@ constexpr int within_steps =
     INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
 constexpr int both_kicks = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 
+/// Of fix enforce2d, whose group has no other motion than in the plane.
+void flatten(const ParticleState &particles, int i)
+{
+  particles.v(i)[2] = particles.f(i)[2] = 0.0;
+  if (!particles.keeps_omega()) return;
+  for (double *const vector : {particles.w(i), particles.torque(i)}) vector[0] = vector[1] = 0.0;
+}
+
 bool moves_particles_with_box(const Fix *fix)
 {
   const auto *const deform = dynamic_cast<const FixDeform *>(fix);
@@ -53,7 +61,7 @@ const FixCalls::Window *FixCalls::window_of(const Fix *fix)
       {"deform", END_OF_STEP, X, X},
       {"drag", POST_FORCE, X, F},
       {"efield", POST_FORCE, X, F | TORQUE},
-      {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE},
+      {"enforce2d", POST_FORCE, 0, V | OMEGA | F | TORQUE, false, flatten},
       {"gravity", POST_FORCE, X, F},
       {"heat/flow", PRE_FORCE | FINAL_INTEGRATE, 0, 0},
       {"indent", POST_FORCE, X, F},
@@ -189,6 +197,13 @@ void FixCalls::find_members(Called &called) const
     if (atom->mask[i] & bits) called.members.push_back(i);
 }
 
+template <class Visit> void FixCalls::for_each_member(const Called &called, Visit visit) const
+{
+  in_ranges(static_cast<int>(called.members.size()), comm->nthreads, [&](int, int begin, int end) {
+    for (int n = begin; n < end; n++) visit(called.members[n]);
+  });
+}
+
 void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
 {
   if (quantities == 0) return;
@@ -197,15 +212,12 @@ void FixCalls::copy(const Called &called, int quantities, bool to_arrays) const
   const auto exchange = [to_arrays](double *in_records, double *in_arrays) {
     copy_row(to_arrays ? in_records : in_arrays, to_arrays ? in_arrays : in_records);
   };
-  in_ranges(static_cast<int>(called.members.size()), comm->nthreads, [&](int, int begin, int end) {
-    for (int n = begin; n < end; n++) {
-      const int i = called.members[n];
-      if (quantities & X) exchange(particles.x(i), atom->x[i]);
-      if (quantities & V) exchange(particles.v(i), atom->v[i]);
-      if ((quantities & OMEGA) && rotates) exchange(particles.w(i), atom->omega[i]);
-      if (quantities & F) exchange(particles.f(i), atom->f[i]);
-      if ((quantities & TORQUE) && rotates) exchange(particles.torque(i), atom->torque[i]);
-    }
+  for_each_member(called, [&](int i) {
+    if (quantities & X) exchange(particles.x(i), atom->x[i]);
+    if (quantities & V) exchange(particles.v(i), atom->v[i]);
+    if ((quantities & OMEGA) && rotates) exchange(particles.w(i), atom->omega[i]);
+    if (quantities & F) exchange(particles.f(i), atom->f[i]);
+    if ((quantities & TORQUE) && rotates) exchange(particles.torque(i), atom->torque[i]);
   });
 }
 
@@ -247,6 +259,11 @@ template <class Call> void FixCalls::call_all(Phase &phase, Call call)
     }
     if (window->calls == POST_INTEGRATE) system.step().complete_move();
     find_members(called);
+    if (window->on_one) {
+      const ParticleState particles = system.step().particles();
+      for_each_member(called, [&](int i) { window->on_one(particles, i); });
+      continue;
+    }
     copy(called, window->reads | window->writes, true);
     call(called.fix);
     copy(called, window->writes, false);

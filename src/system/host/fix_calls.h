@@ -2,11 +2,12 @@
 //
 // Calls the fixes of a step, as Modify does. In steps in the records fixes of LAMMPS that are known
 // to read and change a few quantities of the particles of their group only see these in the arrays of
-// LAMMPS: before the call they are copied there, and what the fix may change is copied back. So is what fix deform
-// moves at the end of a step. Fixes
-// that read particles at the end of a step, such as fix ave/time, find all of them there, complete,
-// while the run goes on in the records; and so does what updates dynamic groups. All other fixes of
-// LAMMPS that act within steps keep a run from having steps in the records.
+// LAMMPS: before the call they are copied there, and what the fix may change is copied back; where
+// it does less than that with each particle, it is done in the records instead. What fix deform moves
+// at the end of a step is copied as well. Fixes that read particles at the end of a step, such as fix
+// ave/time, find all of them there, complete, while the run goes on in the records; and so does what
+// updates dynamic groups. All other fixes of LAMMPS that act within steps keep a run from having steps
+// in the records.
 
 #ifndef TALUS_SYSTEM_HOST_FIX_CALLS_H
 #define TALUS_SYSTEM_HOST_FIX_CALLS_H
@@ -23,6 +24,7 @@ class Fix;
 namespace Talus {
 
 class GranularSystem;
+class ParticleState;
 
 class FixCalls : protected LAMMPS_NS::Pointers {
  public:
@@ -56,6 +58,8 @@ class FixCalls : protected LAMMPS_NS::Pointers {
     const char *style;
     int calls, reads, writes;    ///< bits; what is written is read as well
     bool whole = false;          ///< of all particles: it reads those of another group as well
+    /// What it does with one particle, with the same bits, where that is less than to show it.
+    void (*on_one)(const ParticleState &particles, int i) = nullptr;
   };
   enum Quantity : int { X = 1, V = 2, OMEGA = 4, F = 8, TORQUE = 16 };
 
@@ -78,6 +82,7 @@ class FixCalls : protected LAMMPS_NS::Pointers {
   void forget_members();
   void find_members(Called &called) const;
   void copy(const Called &called, int quantities, bool to_arrays) const;
+  template <class Visit> void for_each_member(const Called &called, Visit visit) const;
 
   GranularSystem &system;
   Phase initial, post, forces, final, end;          // of this run
