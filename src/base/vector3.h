@@ -56,6 +56,34 @@ template <class Real> inline Vector3<Real> in_all_lanes(const Vector3<double> &v
   return {splat<Real>(v.x), splat<Real>(v.y), splat<Real>(v.z)};
 }
 
+/// number_of(k), k = 0 ... 7, or vector_of(k), becomes lane k.
+template <class NumberOf> TALUS_INLINE Vec8 eight_numbers(NumberOf number_of)
+{
+  alignas(64) double number[lanes];
+  for (int k = 0; k < lanes; k++) number[k] = number_of(k);
+  return load8(number);
+}
+template <class VectorOf> TALUS_INLINE Vector3<Vec8> eight_vectors(VectorOf vector_of)
+{
+  alignas(64) double number[3][lanes];
+  for (int k = 0; k < lanes; k++) {
+    const Vector3<double> v = vector_of(k);
+    number[0][k] = v.x;
+    number[1][k] = v.y;
+    number[2][k] = v.z;
+  }
+  return {load8(number[0]), load8(number[1]), load8(number[2])};
+}
+/// The reverse: to(k, vector).
+template <class To> TALUS_INLINE void for_each_of_eight(const Vector3<Vec8> &v, int count, To to)
+{
+  alignas(64) double number[3][lanes];
+  store(number[0], v.x);
+  store(number[1], v.y);
+  store(number[2], v.z);
+  for (int k = 0; k < count; k++) to(k, Vector3<double>{number[0][k], number[1][k], number[2][k]});
+}
+
 template <class Mask, class Real>
 inline Vector3<Real> select(Mask mask, Vector3<Real> yes, Vector3<Real> no)
 {

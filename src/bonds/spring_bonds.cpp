@@ -8,14 +8,6 @@ namespace Talus {
 
 namespace {
 
-/// of_lane(k), k = 0 ... 7, a number.
-template <class OfLane> TALUS_INLINE Vec8 eight_numbers(OfLane of_lane)
-{
-  alignas(64) double numbers[lanes];
-  for (int k = 0; k < lanes; k++) numbers[k] = of_lane(k);
-  return Memory<Vec8>::load(numbers);
-}
-
 TALUS_INLINE Vec8 sum_of_both(const double *by_particle, const BondEnds *ends)
 {
   return eight_numbers(

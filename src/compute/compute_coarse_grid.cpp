@@ -2,10 +2,10 @@
 
 #include "compute/compute_coarse_grid.h"
 
+#include "base/rows.h"
 #include "base/words.h"
 #include "system/host/command_words.h"
 #include "system/host/particle_volume.h"
-#include "system/host/rows.h"
 
 #include "atom.h"
 #include "domain.h"

@@ -11,7 +11,8 @@
 // Such a function clears and fills `contacts` and returns whether there are any. Normals point to the
 // first of both, which is the particle with a shape. Contacts of two particles are in the axes of space;
 // those with a surface in the frame of the large body, where its pose is the identity. They should be
-// continuous in the poses, and depend on nothing else, neither on calls before nor on the thread.
+// continuous in the poses, and depend on nothing else but, by rounding, the start of the request: neither on calls
+// before nor on the thread.
 
 #ifndef TALUS_SHAPE_COLLISIONS_H
 #define TALUS_SHAPE_COLLISIONS_H
@@ -45,6 +46,8 @@ struct CollisionRequest {
   double force_exponent = 1.0;
   NarrowPhase method = NarrowPhase::FEATURES;
   SeparatingDirection *direction = nullptr;    ///< of two particles: to be read and written
+  /// The normal of the step before, where it is kept (see ShapeContact::begins_search); nullptr: none.
+  const Vector3<double> *start = nullptr;
 };
 
 /// One of several pairs whose contacts are asked for together: `contacts` has been cleared and is to be filled.
@@ -53,6 +56,7 @@ struct CollisionJob {
   const Pose *pose_a, *pose_b;
   SeparatingDirection *direction;
   ShapeContacts *contacts;
+  const Vector3<double> *start;
 };
 
 class Collisions {

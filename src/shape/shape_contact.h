@@ -36,6 +36,9 @@ struct ShapeContact {
   /// The name is a place_name(): that of the next step is the nearest one of the same surface.
   bool is_named_by_place = false;
   int part = 0;    ///< of a large body, see SurfaceContact
+  /// The normal is kept with the history: from there the search of the next step begins. Contacts may depend on it
+  /// by rounding.
+  bool begins_search = false;
 };
 
 /// Parts by which a contact is named: a vertex of a, a vertex of b (on whatever of the other body),
@@ -97,6 +100,7 @@ struct ShapeContacts {
   /// is of the smaller rounding radius.
   bool cores_overlap = false;
   double core_depth = 0.0, core_ratio = 0.0;
+  Vector3<double> start{0.0, 0.0, 0.0};    ///< of the request; 0: none
 
   void clear()
   {

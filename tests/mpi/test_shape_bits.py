@@ -1,6 +1,6 @@
 # Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 # ctest: cost=25 timeout=300
-"""One trajectory of convex particles mixed with spheres: the same bits on any ranks, threads and grid, in a periodic
+"""One trajectory of convex particles, superellipsoids and spheres: the same bits on any ranks, threads and grid, in a periodic
 box, with bodies and meshes that move, particles that come in during the run, and across a restart."""
 
 import functools
@@ -27,7 +27,8 @@ pair_coeff * * {law}
 timestep 0.0005
 fix step balls nve/sphere/symplectic
 fix shapes all shape/gran type 1 box 0.8 0.7 0.6 density 1 orient random 11 &
-    type 2 {corners} scale 0.35 rounded 0.08 density 1 orient random 12
+    type 2 {corners} scale 0.35 rounded 0.08 density 1 orient random 12 &
+    type 4 superellipsoid 0.6 0.55 0.5 4 2.5 density 1 orient random 13 type 5 ellipsoid 0.65 0.5 0.55 density 1 orient random 14
 fix g all gravity/talus 15 vector 0.2 0.1 -1
 fix floor all large/body plane 0 0 0 0 0 1 contact {law}
 fix stirrer all large/body mesh ../stirrer.stl contact {law} move rotate 4 4 0 0 0 1 3
@@ -48,7 +49,7 @@ def grains():
     sites = [(i, j, k) for k in range(5) for j in range(5) for i in range(5)]
     return [Sphere((1.6 * i + 0.8, 1.6 * j + 0.8, 1.4 * k + 0.7), v=tuple(draw.gauss(0, 0.7) for _ in "xyz"),
                    omega=tuple(draw.gauss(0, 1) for _ in "xyz"), diameter=draw.uniform(0.6, 1.0),
-                   type=draw.choice((1, 1, 2, 2, 3))) for i, j, k in sites]
+                   type=draw.choice((1, 1, 2, 3, 4, 4, 5, 5))) for i, j, k in sites]
 
 
 END = "\nwrite_dump all custom end id type x y z vx vy vz omegax omegay omegaz f_shapes[1] f_shapes[2] " \
@@ -61,7 +62,7 @@ class ShapeBits(SceneCase):
 
     @classmethod
     def write_files(cls, folder):
-        write_sphere_data(os.path.join(folder, "grains"), ((0, 8), (-1, 9), (-1, 12)), grains(), types=3)
+        write_sphere_data(os.path.join(folder, "grains"), ((0, 8), (-1, 9), (-1, 12)), grains(), types=5)
         body_meshes.write_stl(os.path.join(folder, "stirrer.stl"), body_meshes.box((2, 3.7, 0), (6, 4.3, 0.7), 4))
 
     @classmethod

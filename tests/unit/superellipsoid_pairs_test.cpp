@@ -6,13 +6,13 @@
 #include "all_directions.h"
 #include "convex_bodies.h"
 #include "shape/superellipsoid/least_overlap.h"
+#include "shape/superellipsoid/superellipsoid_contacts.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 #include <vector>
 
 using namespace Talus;
@@ -51,6 +51,14 @@ class RandomPairs : public RandomBodies {
     return pose;
   }
 };
+
+/// By which the two reach into each other along a normal.
+double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pose &seen,
+                     const Vector &normal)
+{
+  return a.at_normal(normal).height + b.at_normal(seen.direction_in_body(normal)).height -
+         dot(normal, seen.position);
+}
 
 struct Kind {
   double aspect;
@@ -222,43 +230,127 @@ TEST(SuperellipsoidPairs, points_find_their_foot)
 
 /* ---- eight at a time -------------------------------------------------------------------------- */
 
-void expect_same(const CommonNormal &one, const CommonNormal &other)
+void expect_same(const Vector &x, const Vector &y)
 {
-  EXPECT_EQ(one.overlap, other.overlap);
-  EXPECT_EQ(one.curvature_of_b, other.curvature_of_b);
-  for (const auto &[x, y] :
-       {std::pair(one.normal, other.normal), std::pair(one.place_on_b, other.place_on_b),
-        std::pair(one.of_a.place, other.of_a.place)}) {
-    EXPECT_EQ(x.x, y.x);
-    EXPECT_EQ(x.y, y.y);
-    EXPECT_EQ(x.z, y.z);
+  EXPECT_EQ(x.x, y.x);
+  EXPECT_EQ(x.y, y.y);
+  EXPECT_EQ(x.z, y.z);
+}
+
+void expect_same(const ShapeContacts &one, const ShapeContacts &other)
+{
+  ASSERT_EQ(one.points.size(), other.points.size());
+  for (std::size_t n = 0; n < one.points.size(); n++) {
+    const ShapeContact &a = one.points[n], &b = other.points[n];
+    expect_same(a.normal, b.normal);
+    expect_same(a.position, b.position);
+    EXPECT_EQ(a.overlap, b.overlap);
+    EXPECT_EQ(a.curvature[0], b.curvature[0]);
+    EXPECT_EQ(a.curvature[1], b.curvature[1]);
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.begins_search, b.begins_search);
   }
 }
+
+/// Of pairs as steps ask for them.
+struct Jobs {
+  explicit Jobs(const Superellipsoid &shape_a, const Superellipsoid &shape_b) :
+      a(shape_a), b(shape_b)
+  {
+  }
+  const Superellipsoid &a, &b;
+  std::vector<Pose> pose_a, pose_b;
+  std::vector<SeparatingDirection> direction;
+  std::vector<Vector> start;    // 0: none
+
+  /// b is seen by a at this pose, and a is anywhere.
+  void add(const Pose &seen, const Pose &of_a, const Vector &along, const Vector &normal)
+  {
+    Pose of_b;
+    of_b.position = of_a.point_in_space(seen.position);
+    of_b.rotation = of_a.rotation * seen.rotation;
+    pose_a.push_back(of_a);
+    pose_b.push_back(of_b);
+    direction.push_back({-of_a.direction_in_space(along)});
+    start.push_back(-of_a.direction_in_space(normal));
+  }
+  const Vector *start_of(std::size_t k) const
+  {
+    return dot(start[k], start[k]) > 0.0 ? &start[k] : nullptr;
+  }
+  std::vector<ShapeContacts> together()
+  {
+    std::vector<ShapeContacts> found(pose_a.size());
+    std::vector<CollisionJob> jobs;
+    for (std::size_t k = 0; k < pose_a.size(); k++)
+      jobs.push_back({&a, &b, &pose_a[k], &pose_b[k], &direction[k], &found[k], start_of(k)});
+    many_superellipsoids(jobs.data(), static_cast<int>(jobs.size()));
+    return found;
+  }
+  ShapeContacts alone(std::size_t k) const
+  {
+    ShapeContacts found;
+    CollisionRequest request;
+    request.start = start_of(k);
+    superellipsoid_and_superellipsoid({a, pose_a[k]}, {b, pose_b[k]}, request, found);
+    return found;
+  }
+};
 
 /// Whatever stands in the other lanes, also pairs that need the second search: those of one at a time.
 TEST(SuperellipsoidPairs, eight_have_the_bits_of_one)
 {
   RandomPairs random(17);
-  for (int k = 0; k < 2000; k++) {
+  int touch = 0, apart = 0;
+  for (int k = 0; k < 500; k++) {
     const Kind &kind = kinds[k % 4];
     const Superellipsoid a = random.shape(kind.aspect, kind.ellipsoids),
                          other = random.shape(kind.aspect, kind.ellipsoids), &b = k % 3 ? other : a;
     const double least = std::min(a.inscribed_radius(), b.inscribed_radius());
-    Pose seen[lanes];
-    Vector normals[lanes];
-    const int count = 1 + k % lanes;
-    for (int n = 0; n < count; n++)
-      seen[n] = random.touching(a, b, least * random.uniform(-0.05, n ? 0.06 : 0.5), normals[n]);
-    CommonNormal found[lanes];
-    find_common_normals(a, b, seen, count, found);
-    const unsigned apart = apart_along(a, b, seen, normals, count);
+    Jobs jobs(a, b);
+    const int count = 1 + k % 19;
     for (int n = 0; n < count; n++) {
-      expect_same(found[n], find_common_normal(a, b, seen[n]));
-      EXPECT_EQ((apart >> n & 1U) != 0U,
-                overlap_along(a, b, seen[n], normals[n]) <
-                    -1.0e-12 * (a.bounding_radius() + b.bounding_radius()));
+      Vector normal;
+      const Pose seen =
+          random.touching(a, b, least * random.uniform(-0.05, n ? 0.06 : 0.5), normal);
+      const Vector near_by =
+                       normal + (std::pow(10.0, random.uniform(-9.0, 0.0))) * random.direction(),
+                   start = random.chance(0.3) ? Vector{0.0, 0.0, 0.0}
+                                              : (1.0 / length(near_by)) * near_by;
+      jobs.add(seen, Pose(4.0 * random.direction(), random.orientation()), normal, start);
     }
-    k += 3;
+    const std::vector<ShapeContacts> found = jobs.together();
+    for (int n = 0; n < count; n++) {
+      expect_same(found[n], jobs.alone(n));
+      (found[n].points.empty() ? apart : touch)++;
+    }
+  }
+  EXPECT_GT(touch, 1500);
+  EXPECT_GT(apart, 1500);
+}
+
+/* ---- the normal of the step before ------------------------------------------------------------ */
+
+/// From wherever a search begins it finds the same overlap and normal, to rounding.
+TEST(SuperellipsoidPairs, begin_where_the_last_step_ended)
+{
+  RandomPairs random(18);
+  for (int k = 0; k < 400; k++) {
+    const Kind &kind = kinds[k % 4];
+    const Superellipsoid a = random.shape(kind.aspect, kind.ellipsoids),
+                         b = random.shape(kind.aspect, kind.ellipsoids);
+    const double least = std::min(a.inscribed_radius(), b.inscribed_radius());
+    for (int n = 0; n < 100; n++) {
+      Vector normal;
+      const Pose seen =
+          random.touching(a, b, least * std::pow(10.0, random.uniform(-6.0, -1.0)), normal);
+      const CommonNormal found = find_common_normal(a, b, seen);
+      const Vector near_by =
+          found.normal + std::pow(10.0, random.uniform(-9.0, -1.0)) * random.direction();
+      const CommonNormal again = find_common_normal(a, b, seen, (1.0 / length(near_by)) * near_by);
+      ASSERT_GT(found.overlap, 0.0);
+      ASSERT_NEAR(again.overlap, found.overlap, 1.0e-13 * size_of_both(a, b)) << k;
+    }
   }
 }
 

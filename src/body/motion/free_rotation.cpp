@@ -7,14 +7,9 @@
 namespace Talus {
 namespace {
 
-PrincipalAxes<double> axes_of(const Eigen::Quaterniond &q)
+Quaternion<double> own(const Eigen::Quaterniond &q)
 {
-  return Quaternion<double>{q.w(), q.x(), q.y(), q.z()}.axes();
-}
-
-Vector3<double> by_component(const Vector3<double> &a, const Vector3<double> &b)
-{
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
+  return {q.w(), q.x(), q.y(), q.z()};
 }
 
 }    // namespace
@@ -25,42 +20,32 @@ FreeRotation::FreeRotation(const double (&moments)[3], const Eigen::Quaterniond 
 {
   int order[3] = {0, 1, 2};
   std::sort(order, order + 3, [&](int a, int b) { return moments[a] < moments[b]; });
-  inertia = {moments[order[0]], moments[order[1]], moments[order[2]]};
-  inverse = {1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z};
+  of_body.moments = {moments[order[0]], moments[order[1]], moments[order[2]]};
+  of_body.inverse = {1.0 / of_body.moments.x, 1.0 / of_body.moments.y, 1.0 / of_body.moments.z};
   Eigen::Matrix3d sorted = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3; k++) sorted(order[k], k) = 1.0;
   if (sorted.determinant() < 0.0) sorted.col(2) = -sorted.col(2);
-  principal = (axes * Eigen::Quaterniond(sorted)).normalized();
+  of_body.principal = own((axes * Eigen::Quaterniond(sorted)).normalized());
 }
 
 void FreeRotation::rotate(Eigen::Quaterniond &orientation, Vector3<double> &omega,
                           const Vector3<double> &momentum, double dt) const
 {
-  if (dot(momentum, momentum) == 0.0) {
-    omega = {0.0, 0.0, 0.0};
-    return;
-  }
-  const Eigen::Quaterniond q = orientation * principal;
-  Quaternion<double> quat{q.w(), q.x(), q.y(), q.z()};
-  const Vector3<double> along =
-      rotate_freely(quat, momentum, quat.axes().to_body(momentum), inverse, dt);
-  const Eigen::Quaterniond frame(quat.w, quat.x, quat.y, quat.z);
-  omega = axes_of(frame).to_space(by_component(inverse, along));
-  orientation = (frame * principal.conjugate()).normalized();
+  Quaternion<double> q = own(orientation);
+  of_body.rotate(q, omega, momentum, dt);
+  orientation = {q.w, q.x, q.y, q.z};
 }
 
 Vector3<double> FreeRotation::angular_momentum(const Eigen::Quaterniond &orientation,
                                                const Vector3<double> &omega) const
 {
-  const PrincipalAxes<double> frame = axes_of(orientation * principal);
-  return frame.to_space(by_component(inertia, frame.to_body(omega)));
+  return of_body.angular_momentum(own(orientation), omega);
 }
 
 Vector3<double> FreeRotation::omega_of(const Eigen::Quaterniond &orientation,
                                        const Vector3<double> &momentum) const
 {
-  const PrincipalAxes<double> frame = axes_of(orientation * principal);
-  return frame.to_space(by_component(inverse, frame.to_body(momentum)));
+  return of_body.omega_of(own(orientation), momentum);
 }
 
 }    // namespace Talus

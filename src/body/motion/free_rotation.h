@@ -62,7 +62,47 @@ inline Vector3<Real> rotate_freely(Quaternion<Real> &quat, const Vector3<Real> &
   return along;
 }
 
-/// One body with orientation and angular velocity, whatever its axes are.
+/// What has to be known of one body or eight, with orientations that lead from any axes of theirs to those of space.
+template <class Real> struct Inertia {
+  Vector3<Real> inverse, moments;    ///< about principal axes; y: in the middle
+  Quaternion<Real> principal;        ///< from these axes to those of the body
+
+  Vector3<Real> angular_momentum(const Quaternion<Real> &orientation,
+                                 const Vector3<Real> &omega) const
+  {
+    const PrincipalAxes<Real> frame = (orientation * principal).axes();
+    return frame.to_space(by_component(moments, frame.to_body(omega)));
+  }
+  /// The inverse.
+  Vector3<Real> omega_of(const Quaternion<Real> &orientation, const Vector3<Real> &momentum) const
+  {
+    const PrincipalAxes<Real> frame = (orientation * principal).axes();
+    return frame.to_space(by_component(inverse, frame.to_body(momentum)));
+  }
+  /// One step with this angular momentum; `omega` becomes that of the end. What does not turn stays as it is.
+  void rotate(Quaternion<Real> &orientation, Vector3<Real> &omega, const Vector3<Real> &momentum,
+              double dt) const
+  {
+    const Real zero = splat<Real>(0.0);
+    Quaternion<Real> frame = orientation * principal;
+    const Vector3<Real> along =
+        rotate_freely(frame, momentum, frame.axes().to_body(momentum), inverse, dt);
+    const auto turns = dot(momentum, momentum) > zero;
+    omega = select(turns, frame.axes().to_space(by_component(inverse, along)),
+                   Vector3<Real>{zero, zero, zero});
+    const Quaternion<Real> after = (frame * principal.conjugate()).over_length();
+    orientation = {select(turns, after.w, orientation.w), select(turns, after.x, orientation.x),
+                   select(turns, after.y, orientation.y), select(turns, after.z, orientation.z)};
+  }
+
+ private:
+  static Vector3<Real> by_component(const Vector3<Real> &a, const Vector3<Real> &b)
+  {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+  }
+};
+
+/// One body.
 class FreeRotation {
  public:
   FreeRotation() = default;
@@ -90,10 +130,11 @@ class FreeRotation {
   {
     return 0.5 * dot(omega, angular_momentum(orientation, omega));
   }
+  /// For eight bodies at a time.
+  const Inertia<double> &inertia() const { return of_body; }
 
  private:
-  Vector3<double> inverse{1.0, 1.0, 1.0}, inertia{1.0, 1.0, 1.0};    ///< y: in the middle
-  Eigen::Quaterniond principal = Eigen::Quaterniond::Identity();     ///< from these axes
+  Inertia<double> of_body{{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}, {1.0, 0.0, 0.0, 0.0}};
 };
 
 }    // namespace Talus

@@ -24,9 +24,17 @@ template <class Real> struct PrincipalAxes {
 template <class Real> struct Quaternion {
   Real w, x, y, z;
 
+  Quaternion conjugate() const { return {w, -x, -y, -z}; }
   Quaternion normalized() const { return scaled(splat<Real>(1.0) / square_root(square())); }
   /// The same if the length is 1 to a few digits: one step of Newton's method.
   Quaternion renormalized() const { return scaled(splat<Real>(1.5) - splat<Real>(0.5) * square()); }
+
+  /// As Eigen does it, to the same bits.
+  Quaternion over_length() const
+  {
+    const Real length = square_root((x * x + y * y) + (z * z + w * w));
+    return {w / length, x / length, y / length, z / length};
+  }
 
   PrincipalAxes<Real> axes() const
   {

@@ -2,9 +2,9 @@
 
 #include "fix/clump/fix_rigid_small_talus.h"
 
+#include "base/rows.h"
 #include "fix/motion/plain_style.h"
 #include "system/host/restart_data.h"
-#include "system/host/rows.h"
 
 #include "atom.h"
 #include "base/in_parallel.h"

@@ -3,10 +3,10 @@
 #include "fix/motion/fix_nve_sphere_symplectic.h"
 
 #include "base/in_parallel.h"
+#include "base/rows.h"
 #include "body/motion/quaternion.h"
 #include "system/host/command_words.h"
 #include "system/host/fix_list.h"
-#include "system/host/rows.h"
 
 #include "atom.h"
 #include "comm.h"

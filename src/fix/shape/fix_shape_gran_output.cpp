@@ -4,9 +4,9 @@
 
 #include "fix/shape/fix_shape_gran.h"
 
+#include "base/rows.h"
 #include "system/host/command_words.h"
 #include "system/host/lammps_compat.h"
-#include "system/host/rows.h"
 
 #include "atom.h"
 #include "force.h"

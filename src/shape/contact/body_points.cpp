@@ -58,15 +58,15 @@ void BodyPoints::find_points(const Task &task, Chunk &chunk, int p, ShapeContact
   const ParticleShape &particle = *shapes.of(type);
   Pose pose = particle.pose(frame.point_to_body(view.position(i)), view.quaternion(i));
   if (frame.turned) pose.rotation = frame.rotation.transpose() * pose.rotation;
-  PointContact common{};
-  common.row = task.laws.row(type, type);
-  common.inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
-  const BodySurfaces::Particle seen{type, particle.shape(), pose,
-                                    task.laws.force_exponent(common.row)};
+  const int row = task.laws.row(type, type);
+  const double inverse_mass = view.inverse_mass(i) + frame.inverse_mass;
+  const BodySurfaces::Particle seen{type, particle.shape(), pose, task.laws.force_exponent(row)};
   for (int w = 0; w < surfaces.size(); w++) {
     if (!surfaces.touch(w, seen, found)) continue;
     const std::size_t first = chunk.points.size();
-    take_points(chunk, p, w, found, common, [&](const ShapeContact &one, PointContact &point) {
+    take_points(chunk, p, w, found, [&](const ShapeContact &one, PointContact &point) {
+      point.row = row;
+      point.inverse_mass = inverse_mass;
       point.inverse_radius = one.curvature[0];
       if (!surfaces.has_parts()) point.part = -1;
       see_motion(task, i, point);

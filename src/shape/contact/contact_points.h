@@ -88,10 +88,10 @@ class ContactPoints {
   template <class Find, class Add>
   void compute_points(const PointBatch::Task &task, int threads, Find find, Add add);
   /// Adds the points of pair p to those of the chunk, with the histories of the step before; p may
-  /// not fall. `point`: what they have in common; `surface`: of the large body, else 0.
-  /// complete(contact, point) sets inverse_radius and velocities.
+  /// not fall. `surface`: of the large body, else 0. complete(contact, point) sets the row, what it says of both
+  /// bodies, and velocities.
   template <class Complete>
-  void take_points(Chunk &chunk, int p, int surface, const ShapeContacts &found, PointContact point,
+  void take_points(Chunk &chunk, int p, int surface, const ShapeContacts &found,
                    Complete complete) const;
   /// In the order of the points: several of them may belong to one particle.
   void account_for_work(WorkAccount &to) const;
@@ -144,7 +144,7 @@ void ContactPoints::compute_points(const PointBatch::Task &task, int threads, Fi
 
 template <class Complete>
 void ContactPoints::take_points(Chunk &chunk, int p, int surface, const ShapeContacts &found,
-                                PointContact point, Complete complete) const
+                                Complete complete) const
 {
   while (chunk.known < chunk.of_before.size() && chunk.of_before[chunk.known] < p) chunk.known++;
   const std::size_t known = chunk.known, first = chunk.points.size();
@@ -152,6 +152,7 @@ void ContactPoints::take_points(Chunk &chunk, int p, int surface, const ShapeCon
   while (end < chunk.of_before.size() && chunk.of_before[end] == p) end++;
   const Pair &pair = list[p];
   for (const ShapeContact &one : found.points) {
+    PointContact &point = chunk.points.emplace_back();
     point.place = one.position;
     point.normal = one.normal;
     point.overlap = one.overlap;
@@ -159,12 +160,12 @@ void ContactPoints::take_points(Chunk &chunk, int p, int surface, const ShapeCon
     point.energy = one.energy;
     point.name = (static_cast<std::uint64_t>(surface) + one.surface) << 32 | one.name;
     point.is_named_by_place = one.is_named_by_place;
+    point.begins_search = one.begins_search;
+    point.start = found.start;
     point.part = one.part;
     complete(one, point);
-    point.history = {};
     for (std::size_t k = known; !one.is_named_by_place && k < end; k++)
       if (chunk.before[k].name == point.name) point.history = chunk.before[k].history;
-    chunk.points.push_back(point);
     chunk.of_point.push_back(p);
     if (one.overlap > chunk.deepest.overlap_ratio * pair.size)
       chunk.deepest = {one.overlap / pair.size, pair.first,

@@ -2,6 +2,7 @@
 
 #include "shape/contact/point_contact.h"
 
+#include "base/rows.h"
 #include "shape/shape_contact.h"
 
 #include <algorithm>
@@ -13,9 +14,16 @@ namespace Talus {
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to)
 {
   const PointHistory &history = point.history;
-  if (std::all_of(history.begin(), history.end(), [](double v) { return v == 0.0; })) return false;
-  std::copy(history.begin(), history.end(),
-            to.add(particle, partner, point.name | ContactLists::of_shape, point_history_size));
+  const bool is_empty =
+      std::all_of(history.begin(), history.end(), [](double v) { return v == 0.0; });
+  if (is_empty && !point.begins_search) return false;
+  double *const values = to.add(particle, partner, point.name | ContactLists::of_shape,
+                                point.begins_search ? point_memory_size : point_history_size);
+  std::copy(history.begin(), history.end(), values);
+  if (point.begins_search) {
+    put(point.start, values + point_history_size);
+    put(point.normal, values + point_history_size + 3);
+  }
   return true;
 }
 
@@ -79,6 +87,11 @@ PointContact stored_point(const ContactLists::Contact &one)
   PointContact point{};
   point.name = one.feature & ~ContactLists::of_shape;
   std::copy_n(one.value, std::min(one.values, point_history_size), point.history.begin());
+  if (one.values == point_memory_size) {
+    point.begins_search = true;
+    point.start = row(one.value + point_history_size);
+    point.normal = row(one.value + point_history_size + 3);
+  }
   return point;
 }
 

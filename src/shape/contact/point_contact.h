@@ -15,6 +15,8 @@ namespace Talus {
 
 /// History of a contact point, see HistoryValues: its laws have no resistance, and are of order 1.
 inline constexpr int point_history_size = 8;
+/// With start and normal.
+inline constexpr int point_memory_size = point_history_size + 6;
 using PointHistory = std::array<double, point_history_size>;
 
 /// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
@@ -23,10 +25,13 @@ struct PointContact {
   // geometry, see ShapeContact
   Vector3<double> place, normal;    ///< the normal leads from the second body to the first
   double overlap, weight, energy;
-  double inverse_radius;     ///< 1/R_eff
-  std::uint64_t name;        ///< with the surface of a large body in the upper half
-  int part;                  ///< of a large body, see SurfaceContact; -1 if it has none
-  bool is_named_by_place;    ///< see ShapeContact
+  double inverse_radius;    ///< 1/R_eff
+  std::uint64_t name;       ///< with the surface of a large body in the upper half
+  int part;                 ///< of a large body, see SurfaceContact; -1 if it has none
+  bool is_named_by_place, begins_search;    ///< see ShapeContact
+  /// From which the normal was sought; 0: none. Kept beside it, where it begins a search: a set-up finds the normal
+  /// of the last step once more, from the same start.
+  Vector3<double> start;
 
   // motion
   Vector3<double> velocity;    ///< of the first body less that of the second, at `place`
@@ -42,7 +47,8 @@ struct PointContact {
   EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
 
-/// Adds the history of a point to the list of a particle. false: all values are zero, as those of laws without history, and nothing was added: a point that is not
+/// Adds the history of a point to the list of a particle, and where it begins a search start and normal. false: there
+/// is no such and all values are zero, as those of laws without history, and nothing was added: a point that is not
 /// found there begins with zeros.
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to);
 /// Of the points of a particle with one surface those that are named by their place take the histories of the points

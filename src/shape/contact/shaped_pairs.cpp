@@ -2,13 +2,16 @@
 
 #include "shape/contact/shaped_pairs.h"
 
+#include "base/rows.h"
+
 #include <algorithm>
 #include <cstring>
 
 namespace Talus {
 namespace {
 
-constexpr std::size_t size_message = 2 + 1 + point_history_size;    // IDs, name, history
+// IDs, name, history, and start and normal or 0
+constexpr std::size_t size_message = 2 + 1 + point_memory_size;
 
 }    // namespace
 
@@ -105,6 +108,9 @@ void ShapedPairs::save_in_periodic_box(ContactLists &to, int this_rank,
     std::memcpy(&message[begin], pair.name, sizeof pair.name);
     std::memcpy(&message[begin + 2], &point.name, sizeof point.name);
     std::copy(point.history.begin(), point.history.end(), &message[begin + 3]);
+    if (!point.begins_search) return;
+    put(point.start, &message[begin + 3 + point_history_size]);
+    put(point.normal, &message[begin + 3 + point_history_size + 3]);
   });
   const auto images = messages.find(this_rank);
   if (images == messages.end()) return;
@@ -123,6 +129,9 @@ void ShapedPairs::receive(const std::vector<double> &message, ContactLists &to) 
     std::memcpy(tags.data(), &message[n], sizeof tags);
     std::memcpy(&point.name, &message[n + 2], sizeof point.name);
     std::copy_n(&message[n + 3], point_history_size, point.history.begin());
+    point.start = row(&message[n + 3 + point_history_size]);
+    point.normal = row(&message[n + 3 + point_history_size + 3]);
+    point.begins_search = dot(point.normal, point.normal) > 0.0;
     if (const auto found = second_of.find(tags); found != second_of.end())
       keep_history(point, found->second, tags[0], to);
   }
@@ -137,7 +146,7 @@ void ShapedPairs::compute(const ShapedView &view, const LawTable &laws, const St
   place_solids(view, step.threads);
   const double weight = step.account ? static_cast<double>(step.weight_of_changes) : 0.0;
   const auto find = [&](Chunk &chunk, Scratch &with) {
-    find_contacts(laws, chunk, with);
+    find_contacts(laws, step.advance, chunk, with);
     for (int p = chunk.begin; p < chunk.end; p++)
       take_pair(view, weight, chunk, p, with.found[p - chunk.begin]);
   };
@@ -162,21 +171,33 @@ void ShapedPairs::place_solids(const ShapedView &view, int threads)
   });
 }
 
-/* Pairs whose contacts are found several at a time come last. */
+/* Pairs whose contacts are found several at a time come last. A set-up begins where the last step did. */
 
-void ShapedPairs::find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with)
+void ShapedPairs::find_contacts(const LawTable &laws, bool advance, const Chunk &chunk,
+                                Scratch &with)
 {
   with.jobs.clear();
   with.of_job.clear();
+  std::size_t known = 0;
   for (int p = chunk.begin; p < chunk.end; p++) {
+    while (known < chunk.of_before.size() && chunk.of_before[known] < p) known++;
     ShapeContacts &found = with.found[p - chunk.begin];
     found.clear();
     Search &search = searches[p];
     const Solid &a = solids[list[p].first], &b = solids[list[p].second];
     if (!a.may_touch(b)) continue;
     if (search.collision.of_many()) {
-      with.jobs.push_back(
-          {&a.geometry(), &b.geometry(), &a.pose, &b.pose, &search.direction, &found});
+      const bool has_start = known < chunk.of_before.size() && chunk.of_before[known] == p &&
+                             chunk.before[known].begins_search;
+      if (has_start) found.start = advance ? chunk.before[known].normal : chunk.before[known].start;
+      CollisionJob &job = with.jobs.emplace_back();
+      job.a = &a.geometry();
+      job.b = &b.geometry();
+      job.pose_a = &a.pose;
+      job.pose_b = &b.pose;
+      job.direction = &search.direction;
+      job.contacts = &found;
+      job.start = has_start ? &found.start : nullptr;
       with.of_job.push_back(search.collision.of_many());
       continue;
     }
@@ -201,10 +222,10 @@ void ShapedPairs::take_pair(const ShapedView &view, double weight_of_changes, Ch
     search.core_ratio = found.core_ratio;
   }
   const int i = list[p].first, j = list[p].second;
-  PointContact common{};
-  common.row = search.row;
-  common.inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
-  take_points(chunk, p, 0, found, common, [&](const ShapeContact &one, PointContact &point) {
+  const double inverse_mass = view.inverse_mass(i) + view.inverse_mass(j);
+  take_points(chunk, p, 0, found, [&](const ShapeContact &one, PointContact &point) {
+    point.row = search.row;
+    point.inverse_mass = inverse_mass;
     point.inverse_radius = one.curvature[0] + one.curvature[1];
     point.velocity = view.velocity_at(i, one.position) - view.velocity_at(j, one.position);
     if (weight_of_changes != 0.0)

@@ -110,7 +110,7 @@ class ShapedPairs : public ContactPoints {
 
   void set_sides(const ShapedView &view, const std::vector<std::int64_t> &tag);
   void place_solids(const ShapedView &view, int threads);
-  void find_contacts(const LawTable &laws, const Chunk &chunk, Scratch &with);
+  void find_contacts(const LawTable &laws, bool advance, const Chunk &chunk, Scratch &with);
   void take_pair(const ShapedView &view, double weight_of_changes, Chunk &chunk, int p,
                  const ShapeContacts &found);
   void sum_points(const Chunk &chunk);

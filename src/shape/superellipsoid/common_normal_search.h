@@ -315,6 +315,7 @@ CommonNormalSearch<Other>::descend(State x, Goal goal, bool stops, Mask going) c
     x = selected(going & accepted, next, x);
     part = select(accepted, one, 0.5 * part);
     going = going & negated(is_last) & (part > splat<Real>(least_part));
+    if (!any(going)) break;
     is_new = accepted;
     const Way again = newton(x, goal, turns);
     way.along = select(accepted, again.along, way.along);
@@ -322,6 +323,18 @@ CommonNormalSearch<Other>::descend(State x, Goal goal, bool stops, Mask going) c
     way.other_leads = (accepted & again.other_leads) | (negated(accepted) & way.other_leads);
   }
   return x;
+}
+
+/// What touches has a point between the surfaces that is inside both, and is not deep.
+template <class Other, class State>
+TALUS_INLINE auto is_proven(const SuperellipsoidSurface &a, const Other &b, const State &x,
+                            double deep)
+{
+  using Real = typename Other::Real;
+  const Real one = splat<Real>(1.0), half = splat<Real>(0.5);
+  const auto middle = half * (x.of_a.place + (b.center() - x.of_b.place));
+  const auto in_b = b.seen.direction_in_b(middle - b.center());
+  return (x.overlap < splat<Real>(deep)) & (a.gauge(middle) < one) & (b.shape.gauge(in_b) < one);
 }
 
 /* The normal at half way of F. Perram and M. S. Wertheim, J. Comput. Phys. 58, 409 (1985), of ellipsoids with these

@@ -12,7 +12,7 @@
 // heights.
 //
 // Found by Newton's method in the coordinates of the flatter one of the two surfaces, with f to judge steps,
-// started from the common normal of two ellipsoids. As long as the overlap is small, f has no other minimum
+// started from the common normal of two ellipsoids, or of the step before. As long as the overlap is small, f has no other minimum
 // within a right angle of the least one. That a result is not another one is proven: bodies that touch by a
 // point that is inside both, those that do not by a direction with f < 0. Where the first fails, n starts from
 // the direction with the largest ratio of n . d and the sum of the heights: the normal where both touch when
@@ -35,26 +35,20 @@ struct CommonNormal {
   double curvature_of_b = 0.0;    ///< as laws have it, of a superellipsoid that touches
 };
 
-/// Of two superellipsoids; b is at this pose in the frame of a. Apart: any direction in which they are.
+/// Of two superellipsoids; b is at this pose in the frame of a. Apart: any direction in which they are. `start`: a unit
+/// vector from which the search begins if it is not 0, as the normal of the step before; what is found differs by
+/// rounding.
 CommonNormal find_common_normal(const Superellipsoid &a, const Superellipsoid &b,
-                                const Pose &b_seen);
-
-/// The same of up to eight pairs of these two shapes at a time, with the same bits.
-void find_common_normals(const Superellipsoid &a, const Superellipsoid &b, const Pose *b_seen,
-                         int count, CommonNormal *found);
-
-/// Which of up to eight pairs are apart along these directions by more than rounding: one bit each.
-unsigned apart_along(const Superellipsoid &a, const Superellipsoid &b, const Pose *b_seen,
-                     const Vector3<double> *normals, int count);
+                                const Pose &b_seen, const Vector3<double> &start = {0.0, 0.0, 0.0});
+/// Overlaps below this have one minimum of f near by.
+double deep_overlap(const Superellipsoid &a, const Superellipsoid &b);
+/// To which steps of the search relate.
+double size_of_both(const Superellipsoid &a, const Superellipsoid &b);
 
 /// Of a superellipsoid and a ball, or a point if its radius is 0: also where they are apart. A point deep inside
 /// may be nearest to several places: one of them.
 CommonNormal find_common_normal(const Superellipsoid &a, const Vector3<double> &center,
                                 double radius);
-
-/// f(n) alone.
-double overlap_along(const Superellipsoid &a, const Superellipsoid &b, const Pose &b_seen,
-                     const Vector3<double> &normal);
 
 }    // namespace Talus
 

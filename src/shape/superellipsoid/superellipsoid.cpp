@@ -61,6 +61,7 @@ Superellipsoid::Superellipsoid(const Vector &half, double n1, double n2,
   inner = std::min(std::min(half.x, half.y), half.z);
   least_curvature = 0.1 / outer;
   find_mass();
+  curvature_by_volume = 1.0 / cube_root(volume_ * (0.75 / 3.14159265358979323846));
   find_least_radius();
 }
 
@@ -104,21 +105,6 @@ Superellipsoid::Point Superellipsoid::nearest_pole() const
 }
 
 /* ---- what laws and others ask ----------------------------------------------------------------- */
-
-double Superellipsoid::curvature_for_laws(const Point &at) const
-{
-  if (radius_kind == SurfaceRadius::VOLUME)
-    return 1.0 / cube_root(volume_ * (0.75 / 3.14159265358979323846));
-  const Vector &n = at.normal;
-  Vector t = std::abs(n.x) < 0.6 ? Vector{0.0, -n.z, n.y} : Vector{-n.y, n.x, 0.0};
-  t = (1.0 / length(t)) * t;
-  const Vector u = cross(n, t);
-  const double tt = at.curvature(t, t), uu = at.curvature(u, u), tu = at.curvature(t, u);
-  const double curvature = radius_kind == SurfaceRadius::MEAN
-                               ? 0.5 * (tt + uu)
-                               : std::sqrt(std::max(tt * uu - tu * tu, 0.0));
-  return std::max(curvature, least_curvature);
-}
 
 namespace {
 

@@ -51,7 +51,7 @@ class Superellipsoid final : public Shape {
 
   /// As laws have it (1/length), see SurfaceRadius. Of flat places it is limited to a radius of ten bounding
   /// radii.
-  double curvature_for_laws(const Point &point) const;
+  template <class Real> Real curvature_for_laws(const PointWithNormal<Real> &point) const;
 
   const char *name() const override { return "superellipsoid"; }
   double bounding_radius() const override { return outer; }
@@ -70,9 +70,26 @@ class Superellipsoid final : public Shape {
 
   SuperellipsoidSurface formula;
   SurfaceRadius radius_kind;
-  double outer, inner, volume_, least_radius, least_curvature;
+  double outer, inner, volume_, least_radius, least_curvature, curvature_by_volume;
   Eigen::Vector3d moments;
 };
+
+template <class Real>
+Real Superellipsoid::curvature_for_laws(const PointWithNormal<Real> &point) const
+{
+  if (radius_kind == SurfaceRadius::VOLUME) return splat<Real>(curvature_by_volume);
+  const Real zero = splat<Real>(0.0);
+  const Vector3<Real> &n = point.normal;
+  Vector3<Real> t = select(magnitude(n.x) < splat<Real>(0.6), Vector3<Real>{zero, -n.z, n.y},
+                           Vector3<Real>{-n.y, n.x, zero});
+  t = (1.0 / size_of(t)) * t;
+  const Vector3<Real> u = cross(n, t);
+  const Real tt = point.curvature(t, t), uu = point.curvature(u, u), tu = point.curvature(t, u);
+  const Real curvature = radius_kind == SurfaceRadius::MEAN
+                             ? 0.5 * (tt + uu)
+                             : square_root(larger(tt * uu - tu * tu, zero));
+  return larger(curvature, splat<Real>(least_curvature));
+}
 
 }    // namespace Talus
 

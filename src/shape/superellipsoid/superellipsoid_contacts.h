@@ -17,6 +17,11 @@ namespace Talus {
 
 using PlacedSuperellipsoid = Placed<Superellipsoid>;
 
+bool superellipsoid_and_superellipsoid(const PlacedSuperellipsoid &a, const PlacedSuperellipsoid &b,
+                                       const CollisionRequest &request, ShapeContacts &contacts);
+/// Of several pairs, see Collisions::OfMany.
+void many_superellipsoids(const CollisionJob *jobs, int count);
+
 /// Faces, edges and corners, each with the rounding radius; the normal is one of those of the part.
 bool superellipsoid_and_convex(const PlacedSuperellipsoid &a, const Placed<ConvexShape> &b,
                                const CollisionRequest &request, ShapeContacts &contacts);

@@ -2,8 +2,8 @@
 
 #include "system/regions/convex_region.h"
 
+#include "base/rows.h"
 #include "system/host/private_members.h"
-#include "system/host/rows.h"
 #include "system/regions/region_surface.h"
 
 #include "region_block.h"

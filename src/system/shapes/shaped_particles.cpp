@@ -3,10 +3,11 @@
 #include "system/shapes/shaped_particles.h"
 
 #include "system/bodies/large_body.h"
-#include "system/host/rows.h"
 #include "system/step/granular_system.h"
 
 #include "base/in_parallel.h"
+#include "base/lanes.h"
+#include "base/rows.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -90,27 +91,61 @@ void ShapedParticles::keep_change(ChangeRecord &change, int i, const Load &load)
   store(change, change_of(four(v.x, v.y, v.z, 0.0), four(omega.x, omega.y, omega.z, 0.0)));
 }
 
-void ShapedParticles::move(const ParticleState &particles, int i)
+/* Up to eight at a time: those of local index of_lane[k], k < count. */
+
+void ShapedParticles::move(const ParticleState &particles, const int *of_lane, int count)
 {
-  const Load load = particles.load(i);
-  if (ChangeRecord *change = particles.change(i)) keep_change(*change, i, load);
-  const double dt = update->dt, kick = dt * force->ftm2v;
-  const Vector3<double> v = particles.velocity(i) + (kick / atom->rmass[i]) * load.force;
-  put(v, particles.v(i));
-  put(particles.position(i) + dt * v, particles.x(i));
-  Eigen::Quaterniond q = quaternion(quat[i]);
-  Vector3<double> omega = particles.angular_velocity(i);
-  shapes.of(atom->type[i])->rotation().advance(q, omega, force->ftm2v * load.torque, dt);
-  put(q, quat[i]);
-  put(omega, particles.w(i));
+  const auto particle = [&](int k) { return of_lane[std::min(k, count - 1)]; };
+  const auto inertia = [&](int k) -> const Inertia<double> & {
+    return shapes.of(atom->type[particle(k)])->rotation().inertia();
+  };
+  const auto eight_quaternions = [](auto row_of) {
+    const EightRows q = lanes_of([&](int k) { return Memory<Vec4>::load_anywhere(row_of(k)); });
+    return Quaternion<Vec8>{q.number[0], q.number[1], q.number[2], q.number[3]};
+  };
+  Load loads[lanes];
+  for (int k = 0; k < lanes; k++) loads[k] = particles.load(particle(k));
+  for (int k = 0; k < count; k++)
+    if (ChangeRecord *change = particles.change(particle(k)))
+      keep_change(*change, particle(k), loads[k]);
+
+  const double unit = force->ftm2v, dt = update->dt;
+  const Vec8 kick =
+      splat<Vec8>(dt * unit) / eight_numbers([&](int k) { return atom->rmass[particle(k)]; });
+  const Vector3<Vec8> v = eight_vectors([&](int k) { return particles.velocity(particle(k)); }) +
+                          kick * eight_vectors([&](int k) { return loads[k].force; });
+  const Vector3<Vec8> x =
+      eight_vectors([&](int k) { return particles.position(particle(k)); }) + splat<Vec8>(dt) * v;
+  const Inertia<Vec8> body{eight_vectors([&](int k) { return inertia(k).inverse; }),
+                           eight_vectors([&](int k) { return inertia(k).moments; }),
+                           eight_quaternions([&](int k) { return &inertia(k).principal.w; })};
+  Quaternion<Vec8> q = eight_quaternions([&](int k) { return quat[particle(k)]; });
+  Vector3<Vec8> omega =
+      eight_vectors([&](int k) { return particles.angular_velocity(particle(k)); });
+  const Vector3<Vec8> torque =
+      splat<Vec8>(unit) * eight_vectors([&](int k) { return loads[k].torque; });
+  body.rotate(q, omega, body.angular_momentum(q, omega) + splat<Vec8>(dt) * torque, dt);
+
+  for_each_of_eight(v, count, [&](int k, const auto &one) { put(one, particles.v(of_lane[k])); });
+  for_each_of_eight(x, count, [&](int k, const auto &one) { put(one, particles.x(of_lane[k])); });
+  for_each_of_eight(omega, count,
+                    [&](int k, const auto &one) { put(one, particles.w(of_lane[k])); });
+  Record turned[lanes];
+  to_rows({{q.w, q.x, q.y, q.z}}, turned);
+  for (int k = 0; k < count; k++) std::copy_n(turned[k].c, size_orientation, quat[of_lane[k]]);
 }
 
 void ShapedParticles::move()
 {
   const ParticleState particles = system.step().particles();
   in_ranges(atom->nlocal, comm->nthreads, [&](int, int begin, int end) {
-    for (int i = begin; i < end; i++)
-      if (moves(i)) move(particles, i);
+    int of_lane[lanes], count = 0;
+    for (int i = begin; i < end; i++) {
+      if (!moves(i)) continue;
+      of_lane[count++] = i;
+      if (count == lanes) move(particles, of_lane, std::exchange(count, 0));
+    }
+    if (count) move(particles, of_lane, count);
   });
 }
 

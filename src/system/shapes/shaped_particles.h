@@ -130,7 +130,7 @@ class ShapedParticles : public ContactMemory::Holder, protected LAMMPS_NS::Point
   ShapedView view() const;
   void require_set_up() const;
   void keep_change(ChangeRecord &change, int i, const Load &load) const;
-  void move(const ParticleState &particles, int i);
+  void move(const ParticleState &particles, const int *of_lane, int count);
   void send_orientations();
   void tell_pairs(const ContactStep &step) const;
   BodyPoints &points_of(LargeBody &body);

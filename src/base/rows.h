@@ -1,9 +1,9 @@
 // Talus: granular dynamics for LAMMPS, GPL-2.0, see LICENSE
 //
-// Rows of the arrays of LAMMPS as vectors and quaternions.
+// Rows of numbers, as in the arrays of LAMMPS, as vectors and quaternions.
 
-#ifndef TALUS_SYSTEM_HOST_ROWS_H
-#define TALUS_SYSTEM_HOST_ROWS_H
+#ifndef TALUS_BASE_ROWS_H
+#define TALUS_BASE_ROWS_H
 
 #include "base/linear_algebra.h"
 
