@@ -5,6 +5,8 @@
 #include "fill/region_space.h"
 #include "packing/random_packing.h"
 #include "system/host/command_words.h"
+#include "system/shapes/shaped_particles.h"
+#include "system/step/granular_system.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -71,6 +73,7 @@ void FillRegion::command(int narg, char **arg)
     error->all(FLERR, "fill_region requires atom attributes radius and rmass, and IDs: use "
                       "'atom_style sphere'");
   parse(narg, arg);
+  require_room_for_shape();
   const RegionSpace space(lmp, "fill_region", region_id);
   const double volume = space.volume();
   const int count = count_spheres(volume);
@@ -93,6 +96,17 @@ void FillRegion::command(int narg, char **arg)
                    "fill_region: {} spheres in region {}, solid fraction {:.6g} of its volume "
                    "{:.6g}, largest overlap {:.3g} of the smaller radius after {} steps\n",
                    count, region_id, solid / volume, volume, reached, steps);
+}
+
+void FillRegion::require_room_for_shape() const
+{
+  const ShapedParticles *const shapes = GranularSystem::of(lmp)->shapes();
+  const double needed = shapes ? 2.0 * shapes->table().bounding_radius(type) : 0.0;
+  if (sizes.smallest() < needed * (1.0 - 1.0e-6))
+    error->all(FLERR,
+               "fill_region: particles of type {} have a shape, and the sphere around it has a "
+               "diameter of {:.8g}, more than the {:.8g} given: give it a diameter of {:.8g}",
+               type, needed, sizes.smallest(), needed * (1.0 + 1.0e-6));
 }
 
 /* Beyond faces that are shrink-wrapped, by no more than is needed: other commands may want the rest of it before the first

@@ -26,6 +26,7 @@ class FillRegion : public Command {
  private:
   void parse(int narg, char **arg);
   int count_spheres(double volume) const;
+  void require_room_for_shape() const;
   void enlarge_box(const std::vector<KnownSphere> &made);
   void require_room(const std::vector<double> &radii, double volume) const;
   std::vector<KnownSphere> pack(const RegionSpace &space, int count, double volume,

@@ -129,6 +129,15 @@ class Pour(SceneCase):
         self.assertAlmostEqual(thermo(log)[-1]["f_in[1]"], 4.0, delta=mass)
         self.assertEqual(thermo(log)[-1]["f_in[2]"], math.ceil(4.0 / mass))
 
+    def test_fill_region_asks_for_the_sphere_around_a_shape(self):
+        region = TABLETS.split("timestep")[0].format(end="") + "region lay block 0 1 0 1 0.02 1.4\n"
+        fill = "fill_region lay 1 number 20 diameter {} density 1 seed 3\n"
+        for np in 1, 2:
+            log = self.run_lammps(region + fill.format(0.09), np=np, expect_error=True).log
+            self.assertIn("fill_region: particles of type 1 have a shape, and the sphere around it has a diameter of 0.1, more than the "
+                          "0.09 given: give it a diameter of 0.1000001", " ".join(log.split()))
+        self.assertIn("fill_region: 20 spheres in region lay", self.run_lammps(region + fill.format(0.1) + "run 0\n").log)
+
     def test_spheres_as_they_are_made(self):
         dump = "dump made all custom 1 made id radius x y z vx vy vz\ndump_modify made format float %.17g first yes\n"
         self.pour(WORDS.replace("100.0", "900"), before=dump, commands="run 4\n")

@@ -43,7 +43,7 @@ template <typename Styles> std::string why_stock(const Styles &styles, const std
     return "its overlaps and normals are defined in another way than those of fix shape/gran, "
            "which has such shapes";
   if (styles.find(name + "/talus") == styles.end()) return "no accelerated variant";
-  return "start with -sf talus (or write suffix talus)";
+  return "start with -sf talus, or write " + name + "/talus";
 }
 
 /* None without bonds. */
