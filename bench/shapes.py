@@ -25,7 +25,7 @@ SIZES = (8, 12), (5, 6)     # bodies along the sides, layers
 MEASURED = {"cubes": (0.54, 0.67), "dodecahedra": (0.51, 0.63), "tetrahedra": (0.51, 0.64)}
 
 NARROW = re.compile(r"collide|find_gap|find_least_depth|nearest_point|highest_vertex|_contacts|edges_touch|weights_of_edges|"
-                    r"find_common_normal|CommonNormalSearch|apart_along|many_superellipsoids|Superellipsoid|Simplex|Candidates|least_of_faces|edges_above|to_space|Talus::touch")
+                    r"find_common_normal|CommonNormalSearch|EightPairs|eight_poses|many_superellipsoids|Superellipsoid|Simplex|Candidates|least_of_faces|edges_above|to_space|Talus::touch")
 
 
 def run(bench, name, script, code=TALUS, **options):

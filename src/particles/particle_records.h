@@ -166,6 +166,8 @@ class ParticleRecords {
   }
   /// To be called for each slot whose sums are changed: of others advance() reads and resets none.
   void has_acted(std::size_t slot) { acted[slot] = 1; }
+  /// Otherwise its sums are the weight.
+  bool was_acted_on(int slot) const { return acted[slot] != 0; }
   /// For forces other than contacts between particles: from here on until advance() the second half
   /// of the load is the torque itself, which others may add to.
   void settle_torque(int slot)

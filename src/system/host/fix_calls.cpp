@@ -32,12 +32,15 @@ constexpr int within_steps =
     INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
 constexpr int both_kicks = INITIAL_INTEGRATE | FINAL_INTEGRATE;
 
-/// Of fix enforce2d, whose group has no other motion than in the plane.
+/// Of fix enforce2d, whose group has no other motion than in the plane; in two dimensions fix gravity acts there.
 void flatten(const ParticleState &particles, int i)
 {
-  particles.v(i)[2] = particles.f(i)[2] = 0.0;
-  if (!particles.keeps_omega()) return;
-  for (double *const vector : {particles.w(i), particles.torque(i)}) vector[0] = vector[1] = 0.0;
+  const bool rotates = particles.keeps_omega();
+  particles.v(i)[2] = 0.0;
+  if (rotates) particles.w(i)[0] = particles.w(i)[1] = 0.0;
+  if (!particles.records()->was_acted_on(particles.place(i))) return;
+  particles.f(i)[2] = 0.0;
+  if (rotates) particles.torque(i)[0] = particles.torque(i)[1] = 0.0;
 }
 
 bool moves_particles_with_box(const Fix *fix)
