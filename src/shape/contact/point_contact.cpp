@@ -11,19 +11,32 @@
 
 namespace Talus {
 
+void write_memory(const PointContact &point, double *to)
+{
+  const Vector3<double> none{0.0, 0.0, 0.0};
+  to = std::copy(point.history.begin(), point.history.end(), to);
+  put(point.begins_search ? point.start : none, to);
+  put(point.begins_search ? point.normal : none, to + 3);
+}
+
+void read_memory(const double *from, PointContact &point)
+{
+  std::copy_n(from, point_history_size, point.history.begin());
+  point.start = row(from + point_history_size);
+  point.normal = row(from + point_history_size + 3);
+  point.begins_search = dot(point.normal, point.normal) > 0.0;
+}
+
 bool keep_history(const PointContact &point, int particle, std::int64_t partner, ContactLists &to)
 {
   const PointHistory &history = point.history;
   const bool is_empty =
       std::all_of(history.begin(), history.end(), [](double v) { return v == 0.0; });
   if (is_empty && !point.begins_search) return false;
-  double *const values = to.add(particle, partner, point.name | ContactLists::of_shape,
-                                point.begins_search ? point_memory_size : point_history_size);
-  std::copy(history.begin(), history.end(), values);
-  if (point.begins_search) {
-    put(point.start, values + point_history_size);
-    put(point.normal, values + point_history_size + 3);
-  }
+  double memory[point_memory_size];
+  write_memory(point, memory);
+  const int size = point.begins_search ? point_memory_size : point_history_size;
+  std::copy_n(memory, size, to.add(particle, partner, point.name | ContactLists::of_shape, size));
   return true;
 }
 
@@ -86,12 +99,9 @@ PointContact stored_point(const ContactLists::Contact &one)
 {
   PointContact point{};
   point.name = one.feature & ~ContactLists::of_shape;
-  std::copy_n(one.value, std::min(one.values, point_history_size), point.history.begin());
-  if (one.values == point_memory_size) {
-    point.begins_search = true;
-    point.start = row(one.value + point_history_size);
-    point.normal = row(one.value + point_history_size + 3);
-  }
+  double memory[point_memory_size] = {};
+  std::copy_n(one.value, std::min(one.values, point_memory_size), memory);
+  read_memory(memory, point);
   return point;
 }
 

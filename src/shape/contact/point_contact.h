@@ -15,8 +15,6 @@ namespace Talus {
 
 /// History of a contact point, see HistoryValues: its laws have no resistance, and are of order 1.
 inline constexpr int point_history_size = 8;
-/// With start and normal.
-inline constexpr int point_memory_size = point_history_size + 6;
 using PointHistory = std::array<double, point_history_size>;
 
 /// One contact point of two bodies of which at least one is a shape, in the axes of space, on its
@@ -46,6 +44,11 @@ struct PointContact {
   Vector3<double> force;    ///< on the first body, at `place`
   EnergyByCause work;       ///< if it is accounted for, see contact_work.h
 };
+
+/// What is kept of a point beside its name: the history, start and normal (0 where it begins no search).
+inline constexpr int point_memory_size = point_history_size + 6;
+void write_memory(const PointContact &point, double *to);
+void read_memory(const double *from, PointContact &point);
 
 /// Adds the history of a point to the list of a particle, and where it begins a search start and normal. false: there
 /// is no such and all values are zero, as those of laws without history, and nothing was added: a point that is not

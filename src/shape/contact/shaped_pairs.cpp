@@ -2,16 +2,13 @@
 
 #include "shape/contact/shaped_pairs.h"
 
-#include "base/rows.h"
-
 #include <algorithm>
 #include <cstring>
 
 namespace Talus {
 namespace {
 
-// IDs, name, history, and start and normal or 0
-constexpr std::size_t size_message = 2 + 1 + point_memory_size;
+constexpr std::size_t size_message = 2 + 1 + point_memory_size;    // IDs, name, memory
 
 }    // namespace
 
@@ -107,10 +104,7 @@ void ShapedPairs::save_in_periodic_box(ContactLists &to, int this_rank,
     message.resize(begin + size_message);
     std::memcpy(&message[begin], pair.name, sizeof pair.name);
     std::memcpy(&message[begin + 2], &point.name, sizeof point.name);
-    std::copy(point.history.begin(), point.history.end(), &message[begin + 3]);
-    if (!point.begins_search) return;
-    put(point.start, &message[begin + 3 + point_history_size]);
-    put(point.normal, &message[begin + 3 + point_history_size + 3]);
+    write_memory(point, &message[begin + 3]);
   });
   const auto images = messages.find(this_rank);
   if (images == messages.end()) return;
@@ -128,10 +122,7 @@ void ShapedPairs::receive(const std::vector<double> &message, ContactLists &to) 
     PointContact point{};
     std::memcpy(tags.data(), &message[n], sizeof tags);
     std::memcpy(&point.name, &message[n + 2], sizeof point.name);
-    std::copy_n(&message[n + 3], point_history_size, point.history.begin());
-    point.start = row(&message[n + 3 + point_history_size]);
-    point.normal = row(&message[n + 3 + point_history_size + 3]);
-    point.begins_search = dot(point.normal, point.normal) > 0.0;
+    read_memory(&message[n + 3], point);
     if (const auto found = second_of.find(tags); found != second_of.end())
       keep_history(point, found->second, tags[0], to);
   }
