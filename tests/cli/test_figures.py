@@ -92,6 +92,10 @@ SENTENCES = [
     ("doc/figures.md", f"takes {NUMBER} bytes for each, the stock styles {NUMBER}",
      [("memory", "1236372 spheres, whole process", (code,), "bytes per particle")
       for code in ("Talus, multistep friction, floor and walls", "stock gran/hertz/history, floor and walls")]),
+    ("doc/fix_nve_sphere_symplectic.md", f"takes {NUMBER} times as long as one of order 1.*takes {NUMBER} times as long",
+     [("needs", "Cost", (case,), "time over that of multistep friction") for case in ("multistep, order 2", "multistep, midpoint")]),
+    ("doc/fix_shape_gran_contacts.md", f"takes {NUMBER} ns for each ellipsoid, {NUMBER} ns with",
+     [("shapes", ROUND, (kind,), STEP) for kind in ("ellipsoids", "superellipsoids")]),
     *(("doc/figures.md", f"{words} {NUMBER}", script(case)[:1]) for words, case in SCRIPTS),
 ]
 
