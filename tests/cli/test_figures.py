@@ -27,7 +27,7 @@ SCRIPT_ROWS = {
     "a bed of 50 000 spheres, gran/hertz/history": [script("bed")],
     "the same with pair granular": [script("bed.tsuji")],
     "30 000 settled spheres, sizes 1:10": [sizes("1:10", "30000", "walls", "settled")],
-    "the same, falling in a periodic box": [sizes("1:10", "30000", "periodic", "falling")],
+    "the same in a periodic box": [sizes("1:10", "30000", "periodic", "settled")],
     "`in.granregion.mixer`": [script("granregion.mixer")],
     "`in.granregion.funnel`": [script("granregion.funnel")],
     "29 185 grains in a turning drum that is a mesh": [[("bodies", "A drum that is a mesh", (ranks,), MEDIAN) for ranks in "12"]],
