@@ -7,6 +7,7 @@ import re
 import sys
 
 import beds
+import curved_walls
 import lammps
 import machine
 import paired
@@ -21,7 +22,8 @@ import body_balance
 
 TITLE = "Large bodies"
 QUESTION = """What does it cost if a vessel is a mesh instead of planes, or has many triangles far from all particles? How much
-memory does a mesh take on each rank? How long do other mesh walls take? And how well do bodies keep momentum and energy?"""
+memory does a mesh take on each rank? How long do other mesh walls take? What do walls that are curved inside cost shapes? And how well do
+bodies keep momentum and energy?"""
 
 REBUILD = 100    # steps between rebuilds of the neighbor lists, in all codes
 LAW = f"contact {beds.HISTORY}"
@@ -150,6 +152,19 @@ def turning_drum(bench):
     bench.section.text(f"""The drum of [the measured flow](../doc/validation/drum.md), {grains} grains and a mesh of {4 * turned_mesh.SEGMENTS}
 triangles, hertz/material with history, `rolling cdt` in both codes, 45 turns per minute: {turned_mesh.STEPS} steps after
 {turned_mesh.WARM}, lists rebuilt when particles have moved.""")
+
+
+def curved(bench):
+    rows = curved_walls.compare(bench, lambda name, script, code: run(bench, name, script, code))
+    mesh_series = rows[1][-1]
+    bench.section.heading("Tablets at a wall that is curved inside")
+    bench.section.table(["vessel", "tablets", "pairs that touch", "contacts with the vessel", "ns per tablet and step", "over the mesh"],
+                        [[*row[:-1], row[-1].median, str(paired.ratio(row[-1], mesh_series))] for row in rows])
+    for vessel_name, *_, series in rows:
+        for k, value in enumerate(series.values):
+            bench.section.record(part="curved", vessel=vessel_name, round=k + 1, ns=value)
+    bench.section.text("Superellipsoids with half axes of 4, 4 and 2 mm, exponents 4 and 2, at rest in a vessel with a radius of 50 mm; the "
+                       "mesh lies around the cylinder. The same time was aimed at.")
 
 
 # ---- memory -----------------------------------------------------------------------------------
@@ -353,7 +368,7 @@ def draw_errors(plt, rows, names, what):
     axes.legend()
 
 
-PARTS = {"cost": cost, "far": far, "liggghts": against_liggghts, "drum": turning_drum, "memory": memory, "vessel": vessel,
+PARTS = {"cost": cost, "far": far, "liggghts": against_liggghts, "drum": turning_drum, "curved": curved, "memory": memory, "vessel": vessel,
          "rotation": free_rotation, "coupling": coupling}
 
 
