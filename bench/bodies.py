@@ -155,14 +155,14 @@ triangles, hertz/material with history, `rolling cdt` in both codes, 45 turns pe
 
 
 def curved(bench):
-    rows = curved_walls.compare(bench, lambda name, script, code: run(bench, name, script, code))
-    mesh_series = rows[1][-1]
+    rows = curved_walls.compare(bench, run)
+    of_mesh = rows[1][-1]
     bench.section.heading("Tablets at a wall that is curved inside")
     bench.section.table(["vessel", "tablets", "pairs that touch", "contacts with the vessel", "ns per tablet and step", "over the mesh"],
-                        [[*row[:-1], row[-1].median, str(paired.ratio(row[-1], mesh_series))] for row in rows])
-    for vessel_name, *_, series in rows:
-        for k, value in enumerate(series.values):
-            bench.section.record(part="curved", vessel=vessel_name, round=k + 1, ns=value)
+                        [[*row[:-1], row[-1].median, str(paired.ratio(row[-1], of_mesh))] for row in rows])
+    for row in rows:
+        for k, value in enumerate(row[-1].values):
+            bench.section.record(part="curved", vessel=row[0], round=k + 1, ns=value)
     bench.section.text("Superellipsoids with half axes of 4, 4 and 2 mm, exponents 4 and 2, at rest in a vessel with a radius of 50 mm; the "
                        "mesh lies around the cylinder. The same time was aimed at.")
 

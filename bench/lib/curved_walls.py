@@ -5,7 +5,6 @@ import math
 
 import paired
 import turned_mesh
-from lammps import TALUS
 
 RADIUS, HALF = 0.05, 0.028      # m
 LAW = "hertz/material 2e7 0.6 0.3 tangential multistep NULL NULL 0.4"
@@ -42,13 +41,13 @@ print "RESULT $(atoms) $(f_tablets[6]) $(f_vessel[20])"
 
 
 def compare(bench, run):
-    """run(name, script): a run on one core. Rows (vessel, tablets, pairs that touch, contacts with the vessel, times of a step) by vessel."""
+    """run(bench, name, script): a run on one core. Rows (vessel, tablets, pairs that touch, contacts with the vessel, times of a step) by vessel."""
     turned_mesh.write_drum(bench.path("drum.stl"), RADIUS / math.cos(math.pi / turned_mesh.SEGMENTS), HALF)
     settling, steps = 12500, bench.size(2500, 500)
     counts = {}
 
     def once(vessel):
-        result = run("tablets", SCENE.format(law=LAW, vessel=VESSELS[vessel], settling=settling, steps=steps), TALUS)
+        result = run(bench, "tablets", SCENE.format(law=LAW, vessel=VESSELS[vessel], settling=settling, steps=steps))
         counts[vessel] = result.printed("RESULT")[0]
         return result.loops()[-1].nanoseconds()
 
